@@ -50,9 +50,9 @@ pub enum Ground<'a> {
     Field(&'a HeightField),
 }
 
-/// Which edges and corners of a triangle may give a contact another normal than the triangle's: where the ground bends
-/// away from the body there, or ends. And whether an edge bends so low that what is nearest along it counts as the
-/// triangle's own normal. Conservative: a bit that is set may be needless.
+/// Which edges and corners of a triangle may give a contact another normal than the triangle's own: where the ground
+/// bends away from the body there, or ends. It also tells whether an edge bends so low that what is nearest along it
+/// counts as the triangle's own normal. Conservative: a bit that is set may be needless.
 ///
 /// ```
 /// use asunder_geometry::Prominent;
@@ -90,19 +90,19 @@ impl Prominent {
         1 << (corner % 3 + if is_front { 3 } else { 9 })
     }
 
-    /// The same and this edge, seen from the front or the back.
+    /// This with one edge added, seen from the front or the back.
     #[must_use]
     pub const fn with_edge(self, edge: usize, is_front: bool) -> Self {
         Self(self.0 | Self::edge_bit(edge, is_front))
     }
 
-    /// The same and this corner, seen from the front or the back.
+    /// This with one corner added, seen from the front or the back.
     #[must_use]
     pub const fn with_corner(self, corner: usize, is_front: bool) -> Self {
         Self(self.0 | Self::corner_bit(corner, is_front))
     }
 
-    /// The same, and that an edge bends low.
+    /// This with the note added that an edge bends low.
     #[must_use]
     pub const fn with_low_bend(self) -> Self {
         Self(self.0 | Self::LOW_BEND)
@@ -169,7 +169,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The corners of a triangle, in metres and local axes. Of a number without a triangle, anything.
+    /// The corners of a triangle, in metres and local axes; anything for a number without a triangle.
     #[inline]
     pub fn corners(self, triangle: u32) -> [glam::Vec3; 3] {
         match self {
@@ -178,7 +178,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// A triangle; nothing where the number has none.
+    /// A triangle; `None` where the number has none.
     #[inline]
     pub fn triangle(self, triangle: u32) -> Option<Triangle3> {
         match self {
@@ -196,8 +196,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The triangle on the other side of a half-edge, and which of its half-edges that is. Nothing where the ground
-    /// ends, where more than two triangles meet, or where two do that wind differently.
+    /// The triangle on the other side of a half-edge, and which of its half-edges that is. `None` where the ground
+    /// ends, where more than two triangles meet, or where two meet that wind differently.
     #[inline]
     pub fn neighbor(self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
         match self {
@@ -266,8 +266,8 @@ impl<'a> Ground<'a> {
         self.meet_along([from, direction], grown, limit, |number, _| visitor(number));
     }
 
-    /// As [`visit_along`](Self::visit_along), with [`corners`](Self::corners). Cost: as that, with fewer waits for
-    /// memory.
+    /// Like [`visit_along`](Self::visit_along), but hands over each triangle's [`corners`](Self::corners) too. Cost: as
+    /// that, with fewer waits for memory.
     ///
     /// ```
     /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
@@ -343,8 +343,8 @@ impl<'a> Ground<'a> {
         self.meet_nearest(bounds, limit, |number, _| visitor(number));
     }
 
-    /// As [`visit_nearest`](Self::visit_nearest), with [`corners`](Self::corners). Cost: as that, with fewer waits for
-    /// memory.
+    /// Like [`visit_nearest`](Self::visit_nearest), but hands over each triangle's [`corners`](Self::corners) too.
+    /// Cost: as that, with fewer waits for memory.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};

@@ -22,7 +22,7 @@ use std::sync::Arc;
 #[doc = include_str!("../../doc/height_field.svg")]
 ///
 /// The vertex of column `c` and row `r` is at (c * cell.x, height, r * cell.y), rounded to f32: the first at (0,
-/// height, 0). A cell has four of them and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
+/// height, 0). A cell has four vertices and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
 /// cells: one rule, so that what is drawn can follow it. Fronts look up. Cells may be holes.
 ///
 /// ```text
@@ -34,9 +34,9 @@ use std::sync::Arc;
 /// ```
 ///
 /// It is what a [`TriMesh`](crate::TriMesh) of these triangles would be, in a tenth of the memory: a set of points
-/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided), of bodies that are always
-/// fixed. Bodies that are sunk deep may get other contacts from the one than from the other, since triangles are looked
-/// at in another order.
+/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided). Bodies that carry it are
+/// always fixed. Bodies that are sunk deep may get other contacts from the one than from the other, since triangles are
+/// looked at in another order.
 ///
 /// # Costs and limits
 /// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's
@@ -87,13 +87,13 @@ impl HeightField {
         Ok(Self { data: Arc::new(build::build(grid)?), is_one_sided: false })
     }
 
-    /// The same, solid only from above.
+    /// The same field, solid only from above.
     #[must_use]
     pub fn one_sided(self) -> Self {
         Self { is_one_sided: true, ..self }
     }
 
-    /// The same without the ground of some cells, each by its column and row. Cost: of a new field.
+    /// The same field without the ground of some cells, each given by its column and row. Cost: that of a new field.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
@@ -115,7 +115,7 @@ impl HeightField {
         Ok(Self { data: Arc::new(build::build(grid)?), ..self })
     }
 
-    /// The same without the ground of one cell. Cost: of a new field; of several holes,
+    /// The same field without the ground of one cell. Cost: that of a new field; for several holes,
     /// [`with_holes`](Self::with_holes) is far cheaper.
     ///
     /// ```
@@ -132,8 +132,8 @@ impl HeightField {
         self.with_holes([(column, row)])
     }
 
-    /// The same with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For craters,
-    /// say: a field made anew would be built once more for its holes. Cost: of a new field.
+    /// The same field with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For
+    /// craters, say: a field made anew would be built once more for its holes. Cost: that of a new field.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};

@@ -25,16 +25,17 @@ use std::sync::Arc;
 /// It is the union of its triangles, without thickness. Bodies that carry it are always fixed. It is solid from both
 /// sides unless it is [`one_sided`](Self::one_sided).
 ///
-/// Vertices at the same place count as one, whatever files say. Triangles without an area and such that are there
-/// already, wound either way, are [dropped](Self::dropped); the others keep the numbers that they were given by, so
-/// that materials can be looked up by them. Two triangles are neighbours where they alone share an edge and wind alike.
+/// - Vertices at the same place count as one, whatever files say.
+/// - Triangles without an area, and triangles that are there already, wound either way, are [dropped](Self::dropped).
+///   The others keep the numbers that they were given by, so that materials can be looked up by them.
+/// - Two triangles are neighbours where they alone share an edge and wind alike.
 ///
 /// # Costs and limits
-/// At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
-/// [`MAX_MESH_VERTICES`](crate::tolerance::MAX_MESH_VERTICES) vertices, within 1e6 m of the shape's origin. A triangle
-/// takes about 80 bytes, and less than 100 where no vertex is shared. What is near is found in a tree, which holds the
-/// triangles' corners, so that a ray looks nowhere else; it holds only their boxes where more than two vertices are
-/// given a triangle, and rays on a large mesh take longer then.
+/// - At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
+///   [`MAX_MESH_VERTICES`](crate::tolerance::MAX_MESH_VERTICES) vertices, within 1e6 m of the shape's origin.
+/// - A triangle takes about 80 bytes, and less than 100 where no vertex is shared.
+/// - What is near is found in a tree, which holds the triangles' corners, so that a ray looks nowhere else. Where more
+///   than two vertices are given per triangle it holds only their boxes, and rays on a large mesh take longer then.
 ///
 /// ```
 /// use asunder_geometry::{TriMesh, glam::Vec3};
@@ -75,7 +76,8 @@ impl TriMesh {
     /// from the front. Cost: half a microsecond to one per triangle.
     ///
     /// # Errors
-    /// No triangles that have an area, or too many; vertices that are not finite or out of range; numbers of no vertex.
+    /// No triangles that have an area, or too many; vertices that are not finite or out of range; vertex numbers that
+    /// name no vertex.
     pub fn new(
         vertices: impl Into<Vec<Vec3>>,
         triangles: impl Into<Vec<[u32; 3]>>,
@@ -84,11 +86,11 @@ impl TriMesh {
         Ok(Self { data: Arc::new(data), is_one_sided: false })
     }
 
-    /// The same, solid only from the front.
+    /// The same mesh, solid only from the front.
     ///
-    /// A triangle that was dropped as another's back, the same three vertices wound the other way, is there again: so
-    /// leaves and fences that are drawn from both sides stand in the way of both. The mesh is made once more for that,
-    /// and data not shared; else this costs nothing.
+    /// A triangle that was dropped as another's back, the same three vertices wound the other way, comes back: so
+    /// leaves and fences that are drawn from both sides stand in the way of both. For that the mesh is made once more,
+    /// and its data is not shared; else this costs nothing.
     ///
     /// ```
     /// use asunder_geometry::{TriMesh, glam::Vec3};
