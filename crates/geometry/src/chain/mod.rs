@@ -25,29 +25,35 @@ use tree::Tree;
 #[doc = include_str!("../../doc/chain.svg")]
 ///
 /// It is the set of its segments' points, without thickness and without an inside. Segment `i` leads from vertex `i` to
-/// the next. What overlaps it, its separation from other shapes (the least of its segments' own) and the nearest
-/// points are about that set and know no sides.
+/// the next. Overlap with it, its separation from other shapes (the least of its segments' own) and the nearest points
+/// are about that set and know no sides.
 ///
 /// # Contacts without ghosts
 /// A body that slides over a chain meets a surface, and not a row of segments: where segments meet in a straight line
-/// or a hollow, no contact, no cast and no ray is told of a normal that no segment there has. The edge of a convex
-/// corner, or a loose end, is met as the corner that it is. Vertices that lie on one line up to the rounding of
-/// their coordinates make one straight [`Run`]: contact points name it by its first segment
-/// (`Feature::Edge`), and corners by their vertex (`Feature::Vertex`), so that names stay as a body slides.
+/// or a hollow, no contact, no cast and no ray has a normal that no segment there has. The edge of a convex corner, or
+/// a loose end, is met as the corner that it is.
+///
+/// Vertices that lie on one line up to the rounding of their coordinates make one straight [`Run`]: contact points name
+/// it by its first segment (`Feature::Edge`), and corners by their vertex (`Feature::Vertex`), so that names stay as a
+/// body slides.
 ///
 /// # Sides
 /// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle is on.
-/// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex: contacts, casts and rays
-/// see a segment only from there, and motions pass through from behind: what comes through has contacts, and is pushed
-/// out to the front, as soon as its centre is there; a cast or an impact with that straight run there is only once the
-/// two have been apart. So a closed chain that winds counter-clockwise is solid, as a polygon is;
-/// and ground drawn from right to left looks up. One that leads straight back along itself is there a wall of no width,
-/// with a tip.
+/// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex:
+///
+/// - Contacts, casts and rays see a segment only from there, and motions pass through from behind.
+/// - What comes through has contacts, and is pushed out to the front, as soon as its centre is there. A cast or an
+///   impact with that straight run comes only once the two have been apart.
+/// - So a closed chain that winds counter-clockwise is solid, as a polygon is; and ground drawn from right to left
+///   looks up.
+/// - A chain that leads straight back along itself is there a wall of no width, with a tip.
 ///
 /// # Costs and limits
-/// A body's pair costs what the segments near it cost, and the logarithm of their number. A collider with this shape is
-/// fixed, whatever is said. 16 to 17 bytes per vertex. Thin ground lets fast bodies through unless they are bullets or
-/// cast: where something has an inside, a [`HalfPlane`](crate::HalfPlane) or compound stops them better.
+/// - A pair with a body costs what the segments near it cost, and the logarithm of their number.
+/// - A collider with this shape is fixed, whatever is said.
+/// - 16 to 17 bytes per vertex.
+/// - Thin ground lets fast bodies through unless they are bullets or cast: where something has an inside, a
+///   [`HalfPlane`](crate::HalfPlane) or compound stops them better.
 ///
 /// ```
 /// use asunder_geometry::{Chain, glam::{DVec2, Vec2}};
