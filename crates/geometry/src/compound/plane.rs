@@ -15,10 +15,12 @@ use std::sync::Arc;
 ///
 #[doc = include_str!("../../doc/compound2.svg")]
 ///
-/// It is the union of its parts, which may overlap. Each pair of parts of two bodies that touch has a manifold of its
-/// own; parts of one body never meet. The separation from another shape is the least of its parts'. Cost of a pair: a
-/// bounding circle test for each pair of parts, and the cost of the parts that pass; of 16 parts and more, which are
-/// looked up in a tree, the logarithm of their number for each part of the other, and the cost of what is near.
+/// It is the union of its parts, which may overlap; parts of one body never meet. Each pair of parts of two bodies that
+/// touch has a manifold of its own. The separation from another shape is the least of its parts'.
+///
+/// Cost of a pair: a bounding circle test for each pair of parts, and the cost of the parts that pass. Of 16 parts and
+/// more, which are looked up in a tree: the logarithm of their number for each part of the other, and the cost of what
+/// is near.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};

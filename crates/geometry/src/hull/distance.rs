@@ -9,11 +9,13 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 impl Hull {
     /// Whether the closed shape holds a local point, in metres.
     ///
-    /// Without rounding, decided exactly: the hull of the vertices, also where facets were merged into a face that is
-    /// flat up to rounding only; as long as no product of three coordinates underflows, as of a coordinate below 1e-200
-    /// m. With rounding, what is within the radius of the nearest feature. Cost: a dot product a face; of a point that
-    /// is on the surface up to rounding 30 to 50 ns for each triangle of the surface (Intel Xeon, Ice Lake,
-    /// 2026-11-27).
+    /// - Without rounding, decided exactly: the hull of the vertices, even where facets were merged into a face that is
+    ///   flat up to rounding only; as long as no product of three coordinates underflows, as of a coordinate below
+    ///   1e-200 m.
+    /// - With rounding, what is within the radius of the nearest feature.
+    ///
+    /// Cost: a dot product per face; for a point that is on the surface up to rounding, 30 to 50 ns for each triangle
+    /// of the surface (Intel Xeon, Ice Lake, 2026-11-27).
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         // Far beyond any shape, where squares would overflow.
