@@ -11,9 +11,10 @@ impl Hull {
     /// cylinder. `radius`, in metres, is that of its corners, one of which lies on the side of x.
     ///
     /// It lies inside a cylinder of that radius, by at most radius (1 - cos(pi / sides)): 2 % for 16 sides, 0.5 % for
-    /// 32. More sides cost more: contacts of such hulls grow with the corners of the faces that meet, the memory with
-    /// the sides. On ground that is not flat each triangle below is asked for itself: bodies that roll over hills in
-    /// large numbers do well with 8 to 12 sides, or as a capsule. The axle of a wheel is y as well: the body is turned.
+    /// 32 sides. More sides cost more: contacts of such hulls grow with the corners of the faces that meet, the memory
+    /// with the sides. On ground that is not flat each triangle below is asked for itself: bodies that roll over hills
+    /// in large numbers do well with 8 to 12 sides, or as a capsule. The axle of a wheel is y as well: the body is
+    /// turned.
     ///
     /// ```
     /// use asunder_geometry::{Hull, HullError, glam::DVec3};
