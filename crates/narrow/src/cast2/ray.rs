@@ -25,15 +25,17 @@ use asunder_geometry::{Circle, Compound2, Pose2, Ray2, Shape2};
 /// rotations and two quotients of 8 units of 2^-53 at most, differences, and the projection.
 const ROUNDINGS: f64 = 16.0;
 
-/// Where a ray enters a shape, at most `limit` lengths of its direction from its origin; nothing if it does not.
-/// The limit may be infinite; NaN counts as no limit, and a negative one as zero.
+/// Where a ray enters a shape, at most `limit` lengths of its direction from its origin; `None` if it does not. The
+/// limit may be infinite; a NaN counts as none, and a negative limit as zero.
 ///
-/// Whether it starts inside is exact; then the distance is 0 and the normal is against the ray. Of a compound, the part
-/// that it enters first; one that it starts inside of before any other. Of a chain, the segment that it crosses first,
-/// from its front if the chain is one-sided, with the normal against the ray. Cost: 30 to 80 ns for a shape of few
-/// vertices, the logarithm of the vertices for a polygon of many, the parts for a compound, or the logarithm of many
-/// and those whose boxes it meets, the segments whose boxes it meets for a chain; some microseconds where the origin
-/// lies on the outline up to rounding.
+/// - Whether it starts inside is exact; then the distance is 0 and the normal is against the ray.
+/// - In a compound it meets the part that it enters first, but one that it starts inside of before any other.
+/// - On a chain it meets the segment that it crosses first, from its front if the chain is one-sided, with the normal
+///   against the ray.
+///
+/// Cost: 30 to 80 ns for a shape of few vertices; the logarithm of the vertices for a polygon of many; the parts for a
+/// compound, or the logarithm of many and those whose boxes it meets; the segments whose boxes it meets for a chain;
+/// some microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Pose2, Ray2, Shape2, glam::Vec2};

@@ -73,18 +73,21 @@ enum Meeting {
     Open,
 }
 
-/// Where a ray first meets a posed shape, within `limit` lengths of its direction, which may be infinite.
+/// Where a ray first meets a posed shape, within `limit` lengths of its direction. The limit may be infinite; a NaN
+/// counts as none, and a negative limit as zero.
 ///
-/// An origin inside the shape, or on its surface exactly, is a hit at distance 0. Else the distance is right up to
-/// `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance from the shape and of its size, over
-/// the cosine to the normal; of a hull also four times what its faces are off from its vertices
-/// ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and of one whose outer radius is more than four
-/// times its inner radius all that as many times more. By as much, before it is divided by the cosine, may a ray have
-/// gone into a shape that it is said to miss, and what it is said to hit lie beside it. A thin shape (segment,
-/// triangle, flat hull) is hit by what passes within rounding. A NaN limit counts as none, and a negative one as zero.
-/// Of compounds, the nearest part; one that it starts inside of before any other. Of ground, the nearest triangle; one
-/// that it starts on before any other, and of equals the lowest number. No ray slips through between two that share an
-/// edge or a vertex. One-sided triangles are passed through from behind.
+/// - An origin inside the shape, or on its surface exactly, is a hit at distance 0.
+/// - Else the distance is right up to `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance
+///   from the shape and of its size, over the cosine to the normal; for a hull also four times what its faces are off
+///   from its vertices ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and for one whose outer radius
+///   is more than four times its inner radius all that as many times more.
+/// - By as much, before it is divided by the cosine, a ray may have gone into a shape that it is said to miss, and what
+///   it is said to hit may lie beside it. A thin shape (segment, triangle, flat hull) is hit by what passes within
+///   rounding.
+/// - In a compound it meets the nearest part, but one that it starts inside of before any other.
+/// - On ground it meets the nearest triangle, but one that it starts on before any other, and of equals the lowest
+///   number. No ray slips through between two that share an edge or a vertex. One-sided triangles are passed through
+///   from behind.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a
 /// few distances, about a microsecond, for what is rounded, for segments and flat hulls, and beside the faces of hulls
