@@ -140,8 +140,8 @@ impl World<Plane> {
     /// - One-sided chains have no speculative contact with a part whose middle is behind their front now, before the
     ///   motions. For an impact, what counts is the side where the two first touch. So a body that comes up beside the
     ///   tip of a ledge may have an impact with it, and no contact.
-    /// - Of a compound, every part within that reach has a manifold: thousands of parts are better inserted as bodies
-    ///   of their own, with one owner.
+    /// - Every part of a compound within that reach has a manifold: thousands of parts are better inserted as bodies of
+    ///   their own, with one owner.
     ///
     /// # Errors
     /// A stale key.

@@ -140,8 +140,8 @@ impl World<Volume> {
     /// - A one-sided triangle of ground has neither a speculative contact nor an impact with a part that is clear of it
     ///   and whose middle is behind its front now, before the motions. So a body that comes up beside the edge of a
     ///   ledge passes it.
-    /// - Of a compound, every part within that reach has a manifold: thousands of parts are better inserted as bodies
-    ///   of their own, with one owner.
+    /// - Every part of a compound within that reach has a manifold: thousands of parts are better inserted as bodies of
+    ///   their own, with one owner.
     ///
     /// # Errors
     /// A stale key.

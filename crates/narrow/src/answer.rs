@@ -341,7 +341,7 @@ pub struct ContactPoint3 {
 
 /// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
 ///
-/// Of a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
+/// On a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
 /// normal; and the error holds how far its vertices lie beside that.
 ///
 /// Where there are several, each has the depth along its own normal: the least separation of all says whether the
@@ -378,7 +378,7 @@ pub struct Manifold2 {
 
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
 ///
-/// Of ground, the part is the least triangle of the plane that is touched, or of those that share the normal.
+/// On ground, the part is the least triangle of the plane that is touched, or of those that share the normal.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

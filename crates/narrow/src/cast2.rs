@@ -77,7 +77,7 @@ impl Pair2<'_> {
     ///   may leave it; except, now and then, where that is some thousand times as large.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by
     ///   how much they may miss.
-    /// - Of compounds, the pair of parts that touches first; of equals, the first.
+    /// - A compound is met at the pair of parts that touches first; of equals, the first.
     /// - A one-sided chain is met from its front alone: what is behind a straight [run](asunder_geometry::Run) of it
     ///   when it comes to touch that run passes all of it, even where its middle comes through on the way; contacts
     ///   begin then. A shape that turns may come to touch the run again, from its front, once the two have been apart
@@ -147,7 +147,7 @@ impl Pair2<'_> {
     /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
     ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
     ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
-    /// - Of a body that turns, and is deeper along that normal at the start than in what it touches, since another axis
+    /// - If a body turns, and is deeper along that normal at the start than in what it touches, since another axis
     ///   parts the two, what it goes into counts from where they meet.
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.

@@ -65,9 +65,9 @@ impl Pair3<'_> {
     ///   both anchors are the bodies' positions.
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
-    /// - Of compounds, the parts that meet first.
+    /// - A compound is met at the parts that meet first.
     ///
-    /// Of ground, the first triangle that is met; `part_b` (or `part_a`) is its number.
+    /// Ground is met at its first triangle on the way; `part_b` (or `part_a`) is its number.
     ///
     /// - One-sided ground stops what is in front of a triangle at the start, by the centre of the part, however fast it
     ///   is, and nothing else. What overlaps no triangle that sees it does not touch at the start.
@@ -150,7 +150,7 @@ impl Pair3<'_> {
     /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
     ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
     ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
-    /// - Of a body that turns, and is deeper along that normal at the start than in what it touches, since another axis
+    /// - If a body turns, and is deeper along that normal at the start than in what it touches, since another axis
     ///   parts the two, what it goes into counts from where they meet.
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.

@@ -114,7 +114,7 @@ impl World<Plane> {
     ///   [`Pair2::next_impact`](crate::Pair2::next_impact), and for other bodies, like the tiles of a floor, by that of
     ///   [`next_impact_beside`](crate::Pair2::next_impact_beside).
     /// - A displacement that is zero, or not finite, leads into nothing: `None`.
-    /// - A [bullet](crate::Collider2::bullet) that has this displacement as its motion is told the same, but not bit
+    /// - A [bullet](crate::Collider2::bullet) with this displacement as its motion gets the same answer, but not bit
     ///   for bit. Both stop a little before they touch, within the error that [`Pair2::cast`](crate::Pair2::cast)
     ///   states; where the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
     ///
