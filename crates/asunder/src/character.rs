@@ -172,9 +172,9 @@ pub struct Slide<K, O, N, P> {
     /// What it met that it cannot stand on or does not get up on (walls, ceilings and kerbs), in the order in which it
     /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight.
     ///
-    /// If it did not go all of the way, the reason is here or in `ground`. But ground that turned a jump aside, and
-    /// ground that broke a fall and was left again within the same displacement, are reported nowhere: compare `moved`
-    /// with what was asked for.
+    /// If it did not go all of the way, the reason is here or in `ground`. But ground that turned a jump aside, ground
+    /// that broke a fall and was left again within the same displacement, and what rounding would have led into (then
+    /// it stays where it was free) are reported nowhere: compare `moved` with what was asked for.
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
     pub blocked: bool,

@@ -121,6 +121,8 @@ impl<'a, S: Space> Hooks<'a, S> {
     ///   [`pair`](Self::pair).
     /// - A bullet counts as standing only on manifolds that the hook has left: without those of its floor, the next
     ///   tile may stop it.
+    /// - An update that finds more pairs than [`World::set_max_pairs`] allows does not call it: contacts stay as the
+    ///   update before left them, edited.
     /// - If the hook panics and the game goes on, contacts are as they were found, there are no impacts, and motions
     ///   are kept for the next update.
     #[must_use]

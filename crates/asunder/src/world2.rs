@@ -395,7 +395,7 @@ impl World<Plane> {
         self.change_body(key, |body| body.disabled = true)
     }
 
-    /// Notes that a body is at rest. Another pose wakes it.
+    /// Notes that a body is at rest. Another pose or a motion wakes it.
     ///
     /// This is only a note for the game and its solver, which [`Filter2`](crate::Filter2) and hooks can read. The world
     /// itself does not rely on it: it sees which bodies did not move, and keeps their contacts without computing them

@@ -185,7 +185,7 @@ impl Pair2<'_> {
     ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
     /// - This is judged by where the two stand at the start, and what B does after that counts as sinking: a body that
     ///   was flush and swings or rises into A, by less than that half, is no impact, but a contact once it is there.
-    /// - Half-spaces are never flush.
+    /// - Half-planes are never flush.
     /// - A touch whose axis is not of length 1 is ignored.
     ///
     /// Cost: as the next impact; where there is one, another search.

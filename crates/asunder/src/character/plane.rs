@@ -116,7 +116,7 @@ impl World<Plane> {
     /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it
     ///   took to free it, or to move it back to its skin's distance out of an acute corner.
     /// - A displacement that is not finite counts as none. Nothing goes beyond 1e9 m: of a displacement that leads
-    ///   there, what would end there is left out, and so all of it where nothing is in the way. Half-spaces do not
+    ///   there, what would end there is left out, and so all of it where nothing is in the way. Half-planes do not
     ///   move.
     /// - From a free start, where it ends depends on where the bodies are, and not on the order in which they were
     ///   inserted; but of bodies met at exactly the same distance, the one in the lowest slot counts as met first, as
