@@ -41,7 +41,8 @@ use core::ops::{Add, Mul, Neg, Sub};
 /// [`Walk3`].
 ///
 /// Make one with `new` and change the fields that your game wants different. All lengths are in metres; one that is NaN
-/// or below zero counts as zero, and the skin is never less than 1/4096 of the shape's bounding radius.
+/// or below zero counts as zero, and one above 1e6 as that. The skin is never less than 1/4096 of the shape's bounding
+/// radius, nor than 2^-46 of its distance from the origin.
 ///
 /// ```
 /// use asunder::{Capsule3, Shape3, Walk3, glam::Vec3};
@@ -58,7 +59,7 @@ pub struct Walk<N> {
     /// The gap that is kept to everything. Default: a hundredth of the shape's bounding radius.
     pub skin: f32,
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: anything steeper is a wall.
-    /// Default: 0.7, which is 45.6 degrees; a NaN counts as that.
+    /// Default: 0.7, which is 45.6 degrees; a NaN counts as that, and less than 1e-3 as 1e-3.
     pub steepest: f32,
     /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall, except for
     /// round feet of radius r: whatever the step, they walk over an edge up to (1 - `steepest`) r high, by default 0.3

@@ -44,7 +44,7 @@ pub struct Contact<'a, K, M> {
     ///
     /// - Where the bodies have motions, there are also manifolds of parts that these may bring together, even if other
     ///   parts touch. A solver that does not handle speculative points leaves out those whose separation is more than
-    ///   both margins.
+    ///   the sum of both margins.
     /// - Each tells how deep its own two parts are; on ground, how deep along its own normal. The least separation of
     ///   all is at most zero exactly when the bodies overlap.
     /// - In overlap that least separation is no way out for the whole: a body in a corner, or over a bend of a chain,

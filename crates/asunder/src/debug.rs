@@ -28,8 +28,8 @@ pub struct DebugOptions {
     pub contacts: bool,
     /// The normal at each contact point, from there towards the body in the higher slot. On by default.
     pub normals: bool,
-    /// Length of a normal, in metres, at most 1e6; 0.2 by default. A cross is a quarter of it. A NaN
-    /// counts as 0; a negative length turns the normal around.
+    /// Length of a normal, in metres, at most 1e6; 0.2 by default. A cross is a quarter of it. A NaN counts as
+    /// 0; a negative length turns the normal around.
     pub length: f32,
     /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6; 20 by default. A NaN counts
     /// as 0.

@@ -47,7 +47,7 @@ impl Walk3 {
 /// the bodies, and allocate nothing.
 impl World<Volume> {
     /// Moves a shape out of all solids that it overlaps, by as little as may be, and about 1/4096 of its bounding
-    /// radius clear of them.
+    /// radius clear of them, or 2^-46 of its distance from the origin if that is more.
     ///
     /// 1. It is pushed out of the body that it is deepest in. If that is enough, there is no shorter way out of that
     ///    body.
@@ -59,7 +59,7 @@ impl World<Volume> {
     /// 4. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest
     ///    overlap was shallowest.
     ///
-    /// No path is looked for: a shape in a thin wall may come out on the other side. The exception: no push takes a
+    /// No path is looked for: a shape in a thin wall may come out on the other side. The exception: nothing takes a
     /// convex part's middle through a mesh or a height field, unless from behind where it has one side.
     ///
     /// Cost: a round is a query for boxes, and a manifold for each body met; a straight way is up to twelve queries for
