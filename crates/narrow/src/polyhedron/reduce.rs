@@ -1,47 +1,49 @@
-//! From any number of contact points to four that hold a body as well.
+//! Reduces any number of contact points to four that support a body as well.
 //!
 //! ```text
 //! root = the first corner by its features
-//! for each corner opposite the root: furthest out on either side of the diagonal is the best there    (rooted)
+//! for each corner opposite the root: the corner furthest out on either side of that diagonal is the best   (rooted)
 //! the best four of all have one corner in each arc between neighbours of the four found so;
-//! so root at each corner of the arc with the fewest                                                  (others)
-//! where none of those four is as deep as any: the same again, root = the first of the corners that are
+//! so root at each corner of the shortest arc                                                              (others)
+//! where none of those four counts as deepest: the same again, root = the first of the corners that do
 //! ```
-//! For a fixed root and a diagonal that turns on, the corners furthest from it turn on as well: one pass around the
-//! patch finds the best four that hold the root. That the best of all lie between those is proved by Boyce, Dobkin,
-//! Drysdale and Guibas, "Finding extremal polygons" (SIAM Journal on Computing 1985). Of five to eight corners all
-//! fours are tried.
+//! For a fixed root and a diagonal that turns in one direction, the corners furthest from it move on in the same
+//! direction: one pass around the patch finds the best four with that root. That the best of all lie between those is
+//! proved by Boyce, Dobkin, Drysdale and Guibas, "Finding extremal polygons" (SIAM Journal on Computing 1985). For five
+//! to eight corners all sets of four are tried.
 //!
-//! What is promised, of corners in convex position, up to a few [`EVEN_AREA`]:
-//! - one of the four is as deep as any, up to what counts as even;
-//! - their area is at least that of the best four that hold the first of the corners as deep as any;
-//! - if the best four of all hold a corner as deep as any, it is at least 95 % of theirs: all of it up to
-//!   [`EVERY_ROOT`] corners in the arc. So it is wherever faces rest on each other, where all are as deep;
-//! - fours that are worth as much are told apart by the features of their corners alone: a body that trembles on
-//!   its face stands on the same four in every frame, and seen from the other shape they are the same, unless two
-//!   corners have each other's names.
+//! Guarantees, for corners in convex position, up to a few [`EVEN_AREA`]:
+//! - one of the four counts as deepest, within the given tolerance;
+//! - their area is at least that of the best four that hold the first of the deepest corners;
+//! - if the best four of all hold a corner that counts as deepest, the area is at least 95 % of theirs, and all of it
+//!   for up to [`EVERY_ROOT`] corners in the arc. That is so wherever faces rest on each other, where all corners are
+//!   equally deep;
+//! - ties between sets of four are broken by the features of their corners alone: a body that trembles on its face
+//!   stands on the same four in every frame, and the four are the same as seen from the other shape, unless two corners
+//!   have each other's names.
 //!
-//! The best four that hold a given corner have at least 2/3 of the area of the best of all: at worst the deepest is the
-//! middle of the longer side of a trapezoid whose other side is half as long. Nothing that keeps it can do better.
+//! The best four that hold a given corner have at least 2/3 of the area of the best of all. The worst case is a
+//! trapezoid whose longer side, twice as long as the opposite one, has the deepest corner in its middle. No choice that
+//! keeps that corner can do better.
 
 use crate::feature::FeatureId;
 use asunder_geometry::tolerance::EVEN_AREA;
 use core::array::from_fn;
 
-/// Corners of an arc up to which each is tried as a root; of more, as many spread evenly.
+/// Up to this many corners of an arc, each is tried as a root; of more, this many spread evenly.
 const EVERY_ROOT: usize = 8;
 
 /// A corner of a patch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
-    /// Where it is, seen along the normal.
+    /// Its position, as projected along the normal.
     pub(crate) at: [f64; 2],
-    /// How far the shapes are apart there.
+    /// The separation of the shapes there.
     pub(crate) separation: f64,
 }
 
-/// Four of more than four corners, by their places in the list. The list goes clockwise around a convex patch. Corners
-/// no more than `even` above the deepest are as deep as any.
+/// Picks four of more than four corners; returns their indices. The list goes clockwise around a convex patch. Corners
+/// no more than `even` above the deepest count as deepest.
 pub(crate) fn pick_four<S, I>(count: usize, spot: S, id: I, even: f64) -> [usize; 4]
 where
     S: Fn(usize) -> Spot,
@@ -50,7 +52,7 @@ where
     let least = (0..count).map(|i| spot(i).separation).fold(f64::INFINITY, f64::min) + even;
     let is_deep = |i: usize| spot(i).separation <= least;
     let at = |i: usize| spot(i).at;
-    // A bit for each.
+    // One bit per corner.
     let deep = || (0..count).fold(0, |bits, i| bits | u32::from(is_deep(i)) << i);
     match count {
         5 => pick_of_few::<5>(from_fn(at), deep(), &id),
@@ -61,14 +63,16 @@ where
     }
 }
 
-/// What comes first of corners that are worth as much.
+/// The order among corners that are worth as much.
 fn rank(id: FeatureId) -> ([u32; 2], FeatureId) {
     (id.in_any_order(), id)
 }
 
-/// The best four of a few that hold a deep one, by trying all; a bit for each that is deep.
+/// The best four of a few corners that hold a deepest one, by trying all sets of four. `deep` has a bit for each
+/// deepest corner.
 ///
-/// What asks for names is not a parameter of its own: of each kind of patch there would be a copy of all that is tried.
+/// `id` is a trait object, not a type parameter, so that there is one copy of the search rather than one for each kind
+/// of patch.
 fn pick_of_few<const N: usize>(
     places: [[f64; 2]; N],
     deep: u32,
@@ -89,7 +93,7 @@ fn pick_of_few<const N: usize>(
     if second < even {
         return corners_in(best);
     }
-    // A bit for each corner, the first by rank the highest: of sets of four, the greatest is the first.
+    // A bit for each corner, the highest for the first by rank: of two sets of four, the greater number comes first.
     let ranks: [_; N] = from_fn(|i| (rank(id(i)), i));
     let bits: [u32; N] = from_fn(|i| 1 << (N - 1 - ranks.iter().filter(|&other| *other < ranks[i]).count()));
     let mut greatest = 0;
@@ -104,7 +108,7 @@ fn pick_of_few<const N: usize>(
     corners_in(best)
 }
 
-/// All fours of some corners, as a bit for each corner, and twice the area between them.
+/// Visits all sets of four corners, as a bit for each corner, with twice their area.
 #[inline(always)]
 fn for_each_four<const N: usize>(places: &[[f64; 2]; N], mut visit: impl FnMut(u32, f64)) {
     for a in 0..N {
@@ -121,7 +125,7 @@ fn for_each_four<const N: usize>(places: &[[f64; 2]; N], mut visit: impl FnMut(u
     }
 }
 
-/// The corners of a set of four, in their order.
+/// The corners in a set of four, ascending.
 fn corners_in(mut four: u32) -> [usize; 4] {
     let mut corners = [0; 4];
     for corner in &mut corners {
@@ -131,11 +135,11 @@ fn corners_in(mut four: u32) -> [usize; 4] {
     corners
 }
 
-/// Four of many that hold a deep one, by walks around the patch.
+/// Four of many corners that hold a deepest one, by walks around the patch.
 ///
-/// The walks set out from the first corner by its features, and towards the neighbour that comes first: where several
-/// fours are worth as much, the same are found, whichever corner the list begins with and from whichever side the patch
-/// is seen.
+/// The walks start at the first corner by its features and go towards whichever neighbour comes first. So where several
+/// sets of four are worth as much, the same set is found, whichever corner the list begins with and from whichever
+/// shape the patch is seen.
 fn pick_of_many(
     count: usize,
     at: impl Fn(usize) -> [f64; 2],
@@ -146,7 +150,7 @@ fn pick_of_many(
         (0..count).filter(|&i| is_it(i)).min_by_key(|&i| rank(id(i))).unwrap_or(0)
     };
     let mut deep = (0..count).filter(|&i| is_deep(i));
-    // One that is deeper than all others must be kept, and is where to set out from.
+    // A corner that is deeper than all others must be kept, and is the root.
     let alone = deep.next().filter(|_| deep.next().is_none());
     let root = alone.unwrap_or_else(|| first(&|_| true));
     let (next, before) = ((root + 1) % count, (root + count - 1) % count);
@@ -170,7 +174,7 @@ fn pick_of_many(
     best.corners.map(turned)
 }
 
-/// Twice the area of the triangle of a root and two corners as seen from it, which is positive clockwise.
+/// Twice the signed area of the triangle of a root and two corners given relative to it; positive if clockwise.
 fn area([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     y0 * x1 - x0 * y1
 }
@@ -184,11 +188,11 @@ struct Around<F> {
 /// Four corners in order around a patch.
 #[derive(Clone, Copy)]
 struct Four {
-    /// The first that are even with the best.
+    /// The first found whose area is even with the best.
     corners: [usize; 4],
-    /// The best themselves.
+    /// The best four themselves.
     furthest: [usize; 4],
-    /// Twice the area between these.
+    /// Twice the area of the best four.
     area: f64,
 }
 
@@ -198,7 +202,8 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         self.rooted(root, [(1, self.count - 3), (2, self.count - 2), (3, self.count - 1)])
     }
 
-    /// The best four that hold a root, or others, of those that some filter allows, if they are better than even.
+    /// The best four that hold a root, or others that are allowed by the filter and better by more than what counts as
+    /// even.
     fn best_from(&self, root: usize, is_allowed: impl Fn(&Four) -> bool) -> Four {
         let mut best = self.holding(root);
         self.for_others(best.furthest, |mut found| {
@@ -214,14 +219,14 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         best
     }
 
-    /// The best four that hold a root, the others each so many corners further on.
+    /// The best four that hold a root and one corner in each of three ranges, given as offsets from the root.
     fn rooted(
         &self,
         root: usize,
         [(b_least, b_most), (c_least, c_most), (d_least, d_most)]: [(usize, usize); 3],
     ) -> Four {
         let place = self.seen_from(root);
-        // The first that is even with the best, and the best.
+        // The first that is even with the best so far, and the best.
         let (mut first, mut enough) = ([0, 1, 2, 3], f64::NEG_INFINITY);
         let (mut best, mut most) = (first, f64::NEG_INFINITY);
         let (mut b, mut d) = (b_least.max(1), d_least.max(3));
@@ -261,8 +266,8 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         Four { corners: first.map(index), furthest: best.map(index), area: most }
     }
 
-    /// Of corners on either side of a diagonal that are worth as much, those nearer to the root, but no nearer than
-    /// some.
+    /// Of corners on either side of a diagonal that are worth as much, the ones nearest to the root, but no nearer than
+    /// the `least` offsets.
     fn nearer(&self, root: usize, [_, mut b, c, mut d]: [usize; 4], least: [usize; 2]) -> [usize; 4] {
         let place = self.seen_from(root);
         let at_c = place(c);
@@ -276,12 +281,12 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         [0, b, c, d]
     }
 
-    /// The corner so many further on than a root.
+    /// The index of the corner at an offset from a root.
     fn index(&self, root: usize, offset: usize) -> usize {
         if root + offset < self.count { root + offset } else { root + offset - self.count }
     }
 
-    /// Where corners are, by how many further on than a root they come.
+    /// Positions of corners relative to a root, by their offset from it.
     fn seen_from(&self, root: usize) -> impl Fn(usize) -> [f64; 2] {
         let from = (self.at)(root);
         move |offset| {
@@ -290,7 +295,8 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
         }
     }
 
-    /// Visits the best four that lie between four and hold another corner of their shortest arc, for each such corner.
+    /// For each other corner of the shortest arc between four corners, visits the best four that hold it and lie
+    /// between those four.
     fn for_others(&self, four: [usize; 4], mut visit: impl FnMut(Four)) {
         let arcs = [0, 1, 2, 3].map(|i| {
             let (begin, end) = (four[i], four[(i + 1) % 4]);
@@ -305,7 +311,7 @@ impl<F: Fn(usize) -> [f64; 2]> Around<F> {
             if root == four[0] {
                 continue;
             }
-            // One in each of the other arcs, counted from the root.
+            // One in each of the other arcs, as offsets from the root.
             let mut ahead = length - step;
             let others = [1, 2, 3].map(|i| {
                 let begin = ahead;

@@ -1,37 +1,38 @@
-//! A face cut by the sides of another, as seen along a direction: in the plane.
+//! Clips a face against the sides of another, in the plane: both are projected along a direction.
 //!
 //! ```text
 //! for each side of the reference face:
-//!   each corner of the polygon is beyond the side's line, or on it, or within
+//!   class each corner of the polygon as beyond the side's line, on it, or within
 //!   none beyond: the polygon stays as it is, and nothing is copied
-//!   else: keep what is within or on the line, and add a corner wherever the polygon goes from within to beyond or back
+//!   else: keep corners within or on the line, and add one wherever the polygon crosses between within and beyond
 //! ```
-//! Sutherland and Hodgman, "Reentrant polygon clipping" (1974). Each corner is classed once a side, with a slack: what
-//! lies on the line up to that is kept as it is, name and all. So equal boxes in a stack, whose corners are off each
-//! other's sides by rounding either way, touch at the same corners in every frame; and a crossing is never cut from an
-//! edge that runs along the line, where its place would be rounding.
+//! Sutherland and Hodgman, "Reentrant polygon clipping" (1974). Each corner is classed once per side, with a slack: one
+//! that lies on the line up to the slack is kept unchanged, name included. So equal boxes in a stack, whose corners are
+//! off each other's sides by rounding either way, touch at the same corners in every frame. And no crossing is computed
+//! on an edge that runs along the line, where its position would be rounding noise.
 //!
-//! Sides are made of the reference face's own edges and not of neighbouring faces, so that a face which is flat only up
-//! to rounding clips like one that is flat.
+//! Sides are the reference face's edges, not planes of neighbouring faces, so that a face which is flat only up to
+//! rounding clips like a flat one.
 
 use arrayvec::ArrayVec;
 
-/// So many slacks beyond the extent of the reference face nothing stays. At a right angle a corner is within a slack of
-/// both sides, each taken as up to a root of two, and so within two slacks of the extent.
+/// Nothing is kept further than this many slacks beyond the extent of the reference face. At a right-angled corner,
+/// what is kept lies within a slack of both sides. Each slack is enlarged by at most a root of two, so it lies within
+/// two slacks of the extent.
 const TIP_SLACKS: f64 = 4.0;
 
-/// A polygon being clipped: clockwise, since it is a face seen from behind.
+/// A polygon being clipped. It is clockwise, since the face is seen from behind.
 ///
-/// Corners are made once and never moved: what changes from side to side is a list of their places. A corner that was
-/// just written and is copied in wider steps waits until it has gone to the cache.
+/// Corners are created once and never moved: each side only rewrites a list of their indices. To copy a corner that was
+/// just written, with wider loads than its stores, would stall until the stores have reached the cache.
 pub(super) struct Polygon<const N: usize> {
     corners: ArrayVec<Corner, N>,
-    /// The polygon, and the one before it, by turns.
+    /// The polygon and the one before it, alternating.
     rings: [ArrayVec<u16, N>; 2],
     turn: usize,
-    /// For each corner of the ring, how far it lies beyond the side that is being cut at, times that side's length.
+    /// For each corner of the ring, its distance beyond the side that is being cut at, times that side's length.
     beyond: ArrayVec<f64, N>,
-    /// Whether a corner stayed that lies beyond a side, by no more than the slack.
+    /// Whether a corner was kept that lies beyond a side, by no more than the slack.
     is_loose: bool,
 }
 
@@ -45,14 +46,14 @@ pub(super) struct Corner {
     leaving: Leaving,
 }
 
-/// What a corner of a patch is made of, by the indices of the two faces' own topologies.
+/// The features that a corner of a patch comes from, by half-edge indices of their own shapes' topologies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Name {
     /// A vertex of the incident face, by the half-edge of that face that starts from it.
     Incident(u16),
     /// A vertex of the reference face, by the half-edge of that face that starts from it.
     Reference(u16),
-    /// A half-edge of the reference face and one of the incident face, over each other.
+    /// A half-edge of the reference face that crosses one of the incident face.
     Crossing(u16, u16),
 }
 
@@ -65,20 +66,20 @@ pub(super) enum Leaving {
     Side(u16),
 }
 
-/// A side of the reference face, which lies to its left.
+/// A side of the reference face, which has the face to its left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
     pub(super) half_edge: u16,
-    /// The half-edge of the side that leads to its start.
+    /// The half-edge before this one around the face.
     pub(super) before: u16,
-    /// The half-edge of the side that goes on from its end.
+    /// The half-edge after this one around the face.
     pub(super) after: u16,
 }
 
 impl<const N: usize> Polygon<N> {
-    /// No corners, and room for those of one face, twice those of another, and some more.
+    /// An empty polygon, with room for the corners of one face, twice those of the other, and some more.
     pub(super) fn new() -> Self {
         Self {
             corners: ArrayVec::new(),
@@ -111,18 +112,18 @@ impl<const N: usize> Polygon<N> {
         self.corners.push(Corner { at, height, name, leaving });
     }
 
-    /// Where the vertex of the incident face is seen that was added so many places after the first.
+    /// The projection of the incident face's vertex that was added as number `place`, from 0.
     #[inline]
     pub(super) fn vertex(&self, place: usize) -> [f64; 2] {
         self.corners[place].at
     }
 
-    /// What is left of it.
+    /// The corners that are left.
     pub(super) fn corners(&self) -> impl ExactSizeIterator<Item = &Corner> {
         self.ring().iter().map(|&i| &self.corners[usize::from(i)])
     }
 
-    /// Keeps the part that is not beyond a side; what is beyond by no more than `slack` stays.
+    /// Keeps the part of the polygon that is beyond a side by no more than `slack`.
     #[inline]
     pub(super) fn cut(&mut self, side: &Side, slack: f64) {
         let [dx, dy] = [side.to[0] - side.from[0], side.to[1] - side.from[1]];
@@ -148,12 +149,12 @@ impl<const N: usize> Polygon<N> {
         }
     }
 
-    /// Takes away what stays beyond a corner of the reference face by more than a few slacks, where its sides meet
-    /// at so small an angle that all of it is within the slack of both. `places` are the face's corners, from
-    /// half-edge `first`.
+    /// Removes what was kept more than a few slacks beyond a corner of the reference face, where the face's sides meet
+    /// at so small an angle that points far past the corner are within the slack of both. `places` are the face's
+    /// corners, from half-edge `first`.
     ///
-    /// A face narrower than the slack is a needle that would never end: its lines part by no more than the slack
-    /// long past its tip. Its extent ends it. What lies off a corner of a right angle or more does not come so far.
+    /// A face narrower than the slack would be an endless needle: far past its tip, its two lines are still no further
+    /// apart than the slack. Its extent bounds it. At a corner of a right angle or more, nothing kept lies so far out.
     #[inline]
     pub(super) fn cut_tips(&mut self, places: &[[f64; 2]], first: u16, slack: f64) {
         if !self.is_loose {
@@ -176,7 +177,7 @@ impl<const N: usize> Polygon<N> {
         }
     }
 
-    /// Cuts by the box around the reference face, whose sides are named by the corners that they touch.
+    /// Clips against the bounding box of the reference face. Each side is named after a corner that it touches.
     #[cold]
     fn cut_box(&mut self, [low, high]: [[f64; 2]; 2], places: &[[f64; 2]], first: u16, slack: f64) {
         let around =
@@ -190,16 +191,15 @@ impl<const N: usize> Polygon<N> {
         }
     }
 
-    /// Where the corners begin that are not beyond a side, and how many they are, around the polygon; none if all are
+    /// The run of corners around the polygon that are not beyond a side: its start and its length; `None` if all are
     /// beyond.
     ///
-    /// A convex polygon goes beyond a line once. One that is dented, by rounding or because slivers were merged
-    /// into its face, may do so twice; then only what is around the furthest corner counts, and other corners
-    /// beyond are left out.
+    /// A convex polygon goes beyond a line once. A dented one, from rounding or from slivers merged into its face, may
+    /// do so twice; then only the stretch around the furthest corner is cut, and other corners beyond are left out.
     fn run_within(&self, furthest: f64, slack: f64) -> Option<(usize, usize)> {
         let (beyond, count) = (self.beyond.as_slice(), self.beyond.len());
         if count <= 64 {
-            // A bit for each corner: no loop whose end must be guessed.
+            // A bit for each corner: no loop whose end is hard to predict.
             let is_beyond = |i: usize| u64::from(beyond[i] > slack) << i;
             let bits = (0..count).map(is_beyond).fold(0, |bits, bit| bits | bit);
             let full = u64::MAX >> (64 - count);
@@ -227,8 +227,8 @@ impl<const N: usize> Polygon<N> {
         Some((begin, count - removed))
     }
 
-    /// Takes a run of so many corners, and what stands where the polygon comes back from beyond a side and where it
-    /// goes out.
+    /// Copies the run of `kept` corners from `begin`, and adds a corner where the polygon comes back across the side
+    /// and one where it goes out.
     fn keep(&mut self, (begin, kept): (usize, usize), side: &Side, slack: f64) {
         let count = self.ring().len();
         let around = |i: usize| if i >= count { i - count } else { i };
@@ -242,7 +242,7 @@ impl<const N: usize> Polygon<N> {
         let [one, other] = self.rings.each_mut();
         let (ring, spare) = if self.turn == 0 { (one, other) } else { (other, one) };
         for i in begin..begin + kept {
-            // Of a dented polygon that goes beyond the line twice, corners beyond it may be left in the run.
+            // If a dented polygon goes beyond the line twice, the run may still hold corners beyond it.
             if self.beyond[around(i)] <= slack {
                 spare.push(ring[around(i)]);
             }
@@ -257,7 +257,7 @@ impl<const N: usize> Polygon<N> {
         }
     }
 
-    /// The corner where the edge from a corner within to one beyond meets the side.
+    /// Adds the corner where the edge from a corner within to one beyond meets the side.
     #[inline]
     fn add_crossing(&mut self, (within, beyond): (usize, usize), name: Name, leaving: Leaving) {
         let share = self.beyond[within] / (self.beyond[within] - self.beyond[beyond]);
@@ -280,11 +280,11 @@ fn before(i: usize, count: usize) -> usize {
 }
 
 impl Side {
-    /// What stands where an edge of the polygon meets this side.
+    /// The name of the corner where an edge of the polygon meets this side.
     fn crossing(&self, leaving: Leaving) -> Name {
         match leaving {
             Leaving::Incident(edge) => Name::Crossing(self.half_edge, edge),
-            // Two sides meet over a vertex of the reference face: the one that both have.
+            // Two sides meet over the vertex of the reference face that they share.
             Leaving::Side(other) if other == self.after && other != self.before => {
                 Name::Reference(self.after)
             }

@@ -1,11 +1,11 @@
-//! The frame that contact points of two faces are made in: two coordinates across the normal, and a height.
+//! The frame in which contact points of two faces are built: two coordinates across the normal, and a height.
 
 use asunder_geometry::glam::DVec3;
 
-/// Coordinates seen along the direction of measurement: across it, and how high over the reference plane.
+/// Coordinates along and across the direction in which heights over the reference plane are measured.
 ///
-/// The sides of a face are lines in it, so that clipping is done in the plane; a point comes back to space once,
-/// when it has been chosen.
+/// The sides of a face project to lines in it, so that clipping is two-dimensional; a point is mapped back to space
+/// once it has been chosen.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::polyhedron) struct Frame {
     /// A point of the reference plane.
@@ -14,11 +14,11 @@ pub(in crate::polyhedron) struct Frame {
     across: [DVec3; 2],
     /// Unit direction out of the reference shape along which heights are measured.
     pub(in crate::polyhedron) along: DVec3,
-    /// Height of a point by its place from the origin.
+    /// A point's height is the dot product of this with its offset from the origin.
     over: DVec3,
-    /// Unit normal of the plane: most often the same as `along`.
+    /// Unit normal of the reference plane: mostly the same as `along`.
     facing: DVec3,
-    /// How the plane rises along each coordinate; zero for one that is square to the direction.
+    /// The slope of the plane along each coordinate; zero for a plane that is square to `along`.
     rises: [f64; 2],
 }
 
@@ -37,8 +37,8 @@ impl Frame {
         Self { origin, across, along, over: along, facing: along, rises: [0.0; 2] }
     }
 
-    /// Heights along `along` over a plane that leans: through a point, and square to `facing`, which is within a right
-    /// angle of it.
+    /// Heights along `along` over a tilted plane: through a point and square to `facing`, which is within a right angle
+    /// of `along`.
     pub(super) fn leaning(along: DVec3, facing: DVec3, origin: DVec3) -> Self {
         let level = Self::level(along, origin);
         let over = facing / facing.dot(along);
@@ -57,7 +57,7 @@ impl Frame {
         [self.across[0].dot(vector), self.across[1].dot(vector)]
     }
 
-    /// A vector's share of the height.
+    /// What a vector adds to the height.
     #[inline]
     pub(super) fn lift(&self, vector: DVec3) -> f64 {
         self.over.dot(vector)

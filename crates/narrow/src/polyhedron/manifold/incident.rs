@@ -1,12 +1,12 @@
-//! The face with which a shape looks against a normal.
+//! The incident face: the face of a shape that is most opposed to a normal.
 //!
 //! ```text
-//! the deepest vertex, and all that are as deep up to a slack
-//! of the faces around those vertices: the one with the most of them, of equals the most opposed
+//! find the deepest vertex, and all that are as deep up to a slack
+//! of the faces around those vertices, take the one with the most of them; of equals, the most opposed
 //! ```
-//! Only the neighbourhood of what touches is looked at, however large the hull. Tried: no branches where the deepest
-//! vertex is alone, a tenth of the instructions here, a fifth of the branches taken wrongly, and no time (AMD EPYC, Zen
-//! 4, 2026-11-23).
+//! Only the neighbourhood of the deepest vertex is searched, however large the hull. Tried: a path without branches
+//! where the deepest vertex is alone: a tenth of the instructions here, a fifth of the mispredicted branches, and no
+//! time saved (AMD EPYC, Zen 4, 2026-11-23).
 
 use super::super::solid::Solid;
 use crate::polyhedron::octets::Along;
@@ -14,26 +14,26 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// How a shape looks against a normal.
+/// The incident face for a normal, and the deepest vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Opposed {
-    /// The face, or the one loop of a point or segment.
+    /// The face, or the only loop of a point or segment.
     pub(crate) face: usize,
     /// The vertex that reaches furthest against the normal.
     pub(crate) deepest: usize,
 }
 
-/// The face with which a shape looks against `normal`: of those that have the most of its furthest vertices, the most
-/// opposed. Vertices within `slack` of the furthest are as far. A point or segment has one loop, which is it.
+/// The face of a shape most opposed to `normal`: of those with the most of its furthest vertices, the most opposed.
+/// Vertices within `slack` of the furthest count as equally far. A point or segment returns its only loop.
 ///
-/// Of two vertices that are equally far, one may have a third face that is more opposed than both of their edge's
-/// own; what touches may be at the other.
+/// The faces of the deepest vertex alone would not do: of two vertices that are equally far, one may have a third face
+/// that is more opposed than both faces of their common edge, while the contact is at the other vertex.
 pub(crate) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed {
     if solid.is_slender() {
         return Opposed { face: 0, deepest: solid.support(-normal).vertex };
     }
     let far = Far::from(solid, -normal, slack);
-    // A face that has them all is one of the deepest vertex' own. Else it may be any that has one of them.
+    // A face that holds all of them is one at the deepest vertex. If there is none, it may be at any of them.
     let mut best = Best { far: far.count, facing: f64::NAN, face: None };
     best.offer_around(solid, far.deepest, &far, normal);
     if best.face.is_none() {
@@ -45,8 +45,8 @@ pub(crate) fn opposed_face(solid: &Solid, normal: DVec3, slack: f64) -> Opposed 
     Opposed { face: best.face.unwrap_or(0), deepest: far.deepest }
 }
 
-/// A face, how many far vertices it must have at least, and the dot product of its normal with the direction; that is
-/// not a number until a rival makes it worth having.
+/// The best face so far, the least number of far vertices that a face must hold, and the dot product of the face's
+/// normal with the direction: NaN until a rival needs it.
 struct Best {
     far: usize,
     facing: f64,
@@ -54,12 +54,12 @@ struct Best {
 }
 
 impl Best {
-    /// Takes a better one of the faces around a vertex.
+    /// Replaces the face by a better one around a vertex, if there is one.
     fn offer_around(&mut self, solid: &Solid, vertex: usize, far: &Far, normal: DVec3) {
         let topology = solid.topology;
         for &half_edge in topology.leaving(vertex) {
             let face = usize::from(topology.half_edges()[usize::from(half_edge)].face);
-            // Where the vertex is alone, nothing need be counted.
+            // If the vertex is the only far one, nothing need be counted.
             let count = if far.count == 1 { Some(1) } else { far.count_on(solid, face, self.far) };
             let Some(count) = count else { continue };
             let known = self.face.filter(|_| count == self.far);
@@ -69,7 +69,8 @@ impl Best {
             };
             if known.is_none() {
                 self.facing = f64::NAN;
-                // Two faces share no more than an edge, unless they are back to back.
+                // Two faces share no more than an edge, unless they are back to back, so no other face can hold all of
+                // them.
                 if count == far.count && count > 2 && solid.normal(face).dot(normal) < 0.0 {
                     return;
                 }
@@ -90,21 +91,21 @@ impl Best {
     }
 }
 
-/// The vertices that are as far in a direction as the furthest.
+/// The vertices that are as far in a direction as the furthest, up to a slack.
 pub(in crate::polyhedron) struct Far {
-    /// The furthest; of equals the lowest.
+    /// The furthest vertex; of equals, the lowest index.
     deepest: usize,
     members: Members,
     count: usize,
 }
 
 impl Far {
-    /// As [`Solid::support`]: lanes of f32 leave out what is lower by more than the slack and what they can be off, and
-    /// f64 chooses among the rest.
+    /// As [`Solid::support`]: lanes of f32 discard vertices that are lower by more than the slack and the lanes' error
+    /// bound; f64 decides among the rest.
     pub(in crate::polyhedron) fn from(solid: &Solid, direction: DVec3, slack: f64) -> Self {
         let own = solid.turned_back(direction);
         let along = Along::new(own);
-        // Rounded up by more than its conversion may round it down.
+        // The slack is rounded up by more than the conversion may have rounded it down.
         let least = solid.least_lane(&along) - (slack as f32) * (1.0 + 2.0 * f32::EPSILON);
         let mut near: ArrayVec<(usize, f64), MAX_HULL_VERTICES> = ArrayVec::new();
         solid
@@ -135,7 +136,7 @@ impl Far {
         self.members.0.iter().enumerate().flat_map(of_word)
     }
 
-    /// How many of them a face has, if those are no fewer than `least`.
+    /// How many of them a face holds, or `None` if fewer than `least`.
     fn count_on(&self, solid: &Solid, face: usize, least: usize) -> Option<usize> {
         let vertices = solid.topology.face_vertices(face);
         if vertices.len() < least {

@@ -1,24 +1,24 @@
-//! What a corner of a patch is named after: of each face, the least feature that is near.
+//! Names for the corners of a patch: of each face, the lowest-dimensional feature that is near the corner.
 //!
 //! ```text
-//! the vertex of the face that the corner is
-//! on an edge of the face: the nearer of its ends, if it is near; else the edge
-//! else the nearest vertex of the face, if one is near; else the nearest edge, if one is; else the face
-//! corners of one patch that would be named alike keep the names of what they lie on
+//! it is a vertex of the face:  that vertex
+//! on an edge of the face:      the nearer end of the edge, if near; else the edge
+//! else:                        the nearest vertex of the face, if near; else the nearest edge, if near; else the face
+//! corners of one patch that would get the same name keep the names of the features that they lie on
 //! ```
-//! Of crates that stand squarely on each other, corners are now a hair within each other's sides and now beside them; a
-//! corner of their patch is now a vertex of one, now of the other, and now lies where edges cross. Names that changed
-//! with it would cost a solver what it knew of the point: stacks of six cubes that were told so still trembled after 20
-//! seconds.
+//! Where crates stand squarely on each other, their corners lie a hair within each other's sides in one frame and a
+//! hair beside them in the next. So a corner of their patch is a vertex of one, then of the other, then a crossing of
+//! edges. If names changed with it, a solver would lose what it knew of the point: stacks of six cubes named so still
+//! trembled after 20 seconds.
 //!
-//! Cuboids, whose patches are made otherwise (`super::super::cuboids::patch`), ask here where any corner is near; most
-//! often none is.
+//! Cuboids, whose patches are made by another kernel (`super::super::cuboids::patch`), call this where any corner is
+//! near; mostly none is.
 
 use asunder_geometry::glam::DVec2;
 
-/// A face's vertices as seen along the normal, by the half-edges that start from them.
+/// The vertices around a face as projected along the normal, by the half-edges that start from them.
 pub(in crate::polyhedron) struct Rim<P> {
-    /// Where the vertex is seen that is so many half-edges after the first.
+    /// Where the vertex is, by how many half-edges after the first it comes.
     pub(in crate::polyhedron) place: P,
     pub(in crate::polyhedron) count: usize,
     /// The first half-edge of the face.
@@ -41,8 +41,8 @@ impl<P: Fn(usize) -> [f64; 2]> Rim<P> {
         [DVec2::from_array((self.place)(edge)), DVec2::from_array((self.place)(next))]
     }
 
-    /// What a place is named after that lies on a feature of the face, by what of it is within so many metres. Cost:
-    /// linear in the edges where it lies in the face alone.
+    /// The name, among features within `near` metres, for a point that lies on a given feature of the face. Cost:
+    /// linear in the edges where it lies in the face's interior.
     #[inline]
     pub(in crate::polyhedron) fn near(&self, at: [f64; 2], lies_on: LiesOn, near: f64) -> LiesOn {
         let at = DVec2::from_array(at);
@@ -68,7 +68,7 @@ impl<P: Fn(usize) -> [f64; 2]> Rim<P> {
     }
 
     fn in_face(&self, at: DVec2, near: f64) -> LiesOn {
-        // A vertex is on the lines of two edges: most often no line is near.
+        // A vertex is on the lines of two edges, so this covers vertices too: mostly no line is near.
         let is_beside = |edge: usize| {
             let [from, to] = self.ends(edge);
             let across = (to - from).perp_dot(at - from);

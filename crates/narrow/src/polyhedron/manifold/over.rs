@@ -1,16 +1,17 @@
-//! One contact point where the features that two shapes rest on lie over each other.
+//! One contact point, found where the supporting features of two shapes lie over each other.
 //!
 //! ```text
-//! of each shape, all vertices that reach as far along the normal up to a slack, in the plane across it
-//! the convex outline of each set: what is within it lies in its shape, and no lower than the slack
-//! of all pairs of their sides, the nearest places: outlines that overlap have sides that cross
+//! of each shape, project all vertices as far along the normal as the furthest, up to a slack, onto the plane across it
+//! take the convex outline of each set: a point within it is in its shape, and no lower than the slack
+//! over all pairs of their sides, find the nearest points: outlines that overlap have sides that cross
 //! where none do, one outline may be within the other: then any corner of it is over the other
 //! ```
-//! Where an edge is split by a vertex in its middle, or faces just miss being one, several edges or faces support an
-//! axis and rounding picks one of them. What is over it may be another. Andrew, "Another efficient algorithm for convex
-//! hulls in two dimensions" (1979).
+//! Where an edge is split by a vertex in its middle, or faces are just not merged into one, several edges or faces
+//! support an axis and rounding picks one of them. The other shape may be over another. Andrew, "Another efficient
+//! algorithm for convex hulls in two dimensions" (1979).
 //!
-//! Cost: the product of both outlines' sides. It is asked where a point turned out beside the shapes, which is rare.
+//! Cost: the product of both outlines' side counts. It runs only where a contact point turned out to lie beside the
+//! shapes, which is rare.
 
 use super::super::sat::Axis;
 use super::super::solid::Solid;
@@ -22,16 +23,17 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// Share of the slack by which places must be nearer to be taken instead of others: what is less is rounding.
+/// Share of the slack by which a pair of points must be nearer to replace another: smaller differences are rounding.
 const NEARER: f64 = 1e-3;
 
-/// How many slacks are tried, one after the other. The last is 1.3e-4 of the smaller shape.
+/// Multiples of the slack that are tried in turn. The last is 1.3e-4 of the smaller shape.
 const WIDER: [f64; 3] = [1.0, 16.0, 256.0];
 
-/// A point of the cores on an axis, and how far its ends are apart across it: no more than the slack, or if nothing
-/// is over each other within that, what it took.
+/// A contact point of the cores on an axis, and how far its two ends are apart across the axis: no more than the slack,
+/// or if nothing lies over each other within that, no more than the first of its multiples that finds something.
 ///
-/// A merged face's own corners may lie further from its plane than the slack of a much smaller shape.
+/// The multiples are needed since corners of a merged face may lie further from its plane than the slack of a much
+/// smaller shape.
 #[cold]
 #[inline(never)]
 pub(super) fn point_over(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Option<(Point, f64)> {
@@ -64,7 +66,7 @@ fn point_within(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Option<(Point,
     (best.aside <= slack).then(|| (point(middle, best.feature(a, 0), best.feature(b, 1)), best.aside))
 }
 
-/// The first sides that cross, or the nearest.
+/// The first pair of sides that cross, or else the nearest pair.
 fn nearest(a: &Outline, b: &Outline, slack: f64) -> Option<Near> {
     let mut best: Option<Near> = None;
     for side_a in a.sides() {
@@ -81,7 +83,7 @@ fn nearest(a: &Outline, b: &Outline, slack: f64) -> Option<Near> {
     best
 }
 
-/// A vertex as seen along the axis.
+/// A vertex as projected along the axis.
 #[derive(Clone, Copy)]
 struct Seen {
     at: [f64; 2],
@@ -120,7 +122,7 @@ impl Outline {
         Self { corners }
     }
 
-    /// Each corner and the next; of a single one, it twice.
+    /// Each corner with the next; a single corner with itself.
     fn sides(&self) -> impl Iterator<Item = [Seen; 2]> {
         let next = self.corners.iter().cycle().skip(1);
         self.corners.iter().zip(next).map(|(&from, &to)| [from, to])
@@ -137,8 +139,8 @@ impl Outline {
     }
 }
 
-/// Adds the half of an outline that lies to the right of the way from the first of the sorted corners to the last,
-/// which itself is left to the other half.
+/// Adds the half of an outline to the right of the line from the first of the sorted corners to the last. The last
+/// corner itself is left to the other half.
 fn add_chain<'a>(sorted: impl Iterator<Item = &'a Seen>, corners: &mut ArrayVec<Seen, MAX_HULL_VERTICES>) {
     let start = corners.len();
     let mut last: Option<Seen> = None;
@@ -155,7 +157,7 @@ fn add_chain<'a>(sorted: impl Iterator<Item = &'a Seen>, corners: &mut ArrayVec<
     }
 }
 
-/// Twice the area of a triangle; positive where it turns left.
+/// Twice the signed area of a triangle; positive if it turns left.
 fn turn(from: [f64; 2], to: [f64; 2], at: [f64; 2]) -> f64 {
     cross(less(to, from), less(at, from))
 }
@@ -172,11 +174,11 @@ fn less(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
     [one[0] - other[0], one[1] - other[1]]
 }
 
-/// The nearest places of two sides.
+/// The nearest points of two sides.
 struct Near {
     aside: f64,
     sides: [[Seen; 2]; 2],
-    /// From 0 at a side's start to 1 at its end.
+    /// The nearest point of each side, from 0 at its start to 1 at its end.
     shares: [f64; 2],
 }
 
@@ -197,7 +199,7 @@ impl Near {
             [foot(b1, a0, along_a), 1.0],
         ];
         let mut best = Self { aside: f64::INFINITY, sides: [side_a, side_b], shares: [0.0; 2] };
-        // Parallel sides have no crossing, and a single corner no foot on it: those shares are not numbers.
+        // Parallel sides have no crossing, and a side of one corner has no foot on it: those shares are NaN.
         for shares in shares.map(|pair| pair.map(|share| if share.is_nan() { 0.0 } else { share })) {
             let [s, t] = shares;
             let apart = |i: usize| between[i] + along_b[i] * t - along_a[i] * s;

@@ -1,13 +1,14 @@
-//! The patch that two faces share, and at most four points of it.
+//! The common patch of two faces, and at most four points of it.
 //!
 //! ```text
-//! cut the incident face by the sides of the reference face                        (clip)
-//! corners no higher than wanted become spots; of neighbours in one place, one
+//! clip the incident face against the sides of the reference face                  (clip)
+//! corners no higher than wanted become spots; neighbours in the same place become one
 //! reduce to four                                                                  (reduce)
-//! back to space, and out to the surfaces
+//! map back to space, and move out to the surfaces
 //! ```
-//! All of it is done with the shapes' cores. What is deepest is moved out along the normal; a corner of a tilted face
-//! that is less deep, along that face's own normal, since the shape's surface beyond it looks that way.
+//! All of it works on the shapes' cores. The deepest corners are moved out along the contact normal. A corner of a
+//! tilted face that is less deep is moved out along that face's normal, since the rounded surface beyond it faces that
+//! way.
 
 use super::super::reduce::{Spot, pick_four};
 use super::super::solid::Solid;
@@ -20,30 +21,30 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// The most corners that are made: those of the incident face, two for each side of the reference face, and eight where
-/// a box cuts what is left.
+/// The most corners that clipping creates: those of the incident face, two for each side of the reference face, and
+/// eight for the bounding box.
 const MAX_CORNERS: usize = 3 * MAX_HULL_VERTICES + BY_BOX;
 
-/// Corners that a box makes: two for each of its sides.
+/// Corners that the bounding box adds: two for each of its sides.
 const BY_BOX: usize = 8;
 
-/// As many are made in little memory.
+/// Up to this many corners, a small buffer is used.
 const FEW_CORNERS: usize = 32 + BY_BOX;
 
 /// A face of each shape.
 #[derive(Clone, Copy)]
 pub(super) struct Faces<'a> {
-    /// The shape whose face is measured from, and the face.
+    /// The shape and face from which heights are measured.
     pub(super) reference: (&'a Solid<'a>, usize),
-    /// The shape whose face is cut, and the face.
+    /// The shape and face that is clipped.
     pub(super) incident: (&'a Solid<'a>, usize),
     /// Whether the reference shape is B.
     pub(super) is_b: bool,
 }
 
 impl<'a> Faces<'a> {
-    /// Adds contacts at corners of what both faces share as seen along the frame's direction, in order of their ids;
-    /// whether any corner is as deep as any, of those that were kept or not.
+    /// Adds contact points at corners of the faces' intersection, as projected along the frame's direction, in order of
+    /// their ids. Returns whether any corner, kept or not, counts as deepest.
     pub(super) fn add_points(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
         let corners =
             |(solid, face): (&Solid, usize)| ExactSizeIterator::len(&solid.topology.face_half_edges(face));
@@ -54,7 +55,7 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// Apart, so that those with few corners never touch the memory of those with many.
+    /// Not inlined, so that faces with few corners never touch the memory for many.
     #[inline(never)]
     fn add_of_many(&self, frame: &Frame, depths: &Depths, points: &mut Points) -> bool {
         self.add::<MAX_CORNERS>(frame, depths, points)
@@ -77,7 +78,7 @@ impl<'a> Faces<'a> {
             }
         }
         spots.close(0);
-        // What is less deep belongs to a tilted face, and lies out along its normal; there the corners are cut again.
+        // Less deep corners belong to a tilted face, whose surface lies out along its normal: clip again there.
         if !is_whole && let Some(moved) = self.outwards(frame) {
             self.add_higher(frame, moved, (&mut polygon, &mut places), &mut spots);
         }
@@ -89,7 +90,7 @@ impl<'a> Faces<'a> {
         [self.reference.0.radius, self.incident.0.radius]
     }
 
-    /// From the cores' faces to the surfaces beyond them; nothing where the incident one has no direction of its own.
+    /// The moves from the cores' faces to their surfaces; `None` where the incident face has no direction of its own.
     fn outwards(&self, frame: &Frame) -> Option<[DVec3; 2]> {
         let (incident, face) = self.incident;
         let [radius, incident_radius] = self.radii();
@@ -97,7 +98,7 @@ impl<'a> Faces<'a> {
         Some([frame.facing() * radius, outwards * incident_radius])
     }
 
-    /// Spots of the faces of the surfaces, where those of the cores left none.
+    /// Adds spots of the surfaces' faces where those of the cores left none.
     fn add_higher<const N: usize>(
         &self,
         frame: &Frame,
@@ -106,7 +107,7 @@ impl<'a> Faces<'a> {
         spots: &mut Spots<'_, N>,
     ) {
         let [radius, _] = self.radii();
-        // How far over the core's plane the surface lies along the frame's direction.
+        // Height of the reference surface above its core's plane, along the frame's direction.
         let rise = radius * frame.lift(frame.facing());
         let (slack, first) = (spots.depths.slack, spots.list.len());
         let mut last = None;
@@ -125,8 +126,8 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// The incident face cut by the sides of the reference face, both moved first; and where the vertices of the latter
-    /// are seen.
+    /// Clips the incident face against the sides of the reference face, both moved first, into `polygon`. `places`
+    /// receives the projected vertices of the reference face.
     fn clip<const N: usize>(
         &self,
         frame: &Frame,
@@ -157,7 +158,7 @@ impl<'a> Faces<'a> {
         polygon.cut_tips(places, first, slack);
     }
 
-    /// At most four of the spots as contacts, in order of their ids.
+    /// Adds at most four of the spots as contact points, in order of their ids.
     fn add_kept<const N: usize>(
         &self,
         frame: &Frame,
@@ -175,7 +176,7 @@ impl<'a> Faces<'a> {
             kept.extend(chosen.iter().map(|&i| (id(i), i)));
         }
         kept.sort_unstable();
-        // Sides shorter than the slack can give two corners one name.
+        // Sides shorter than the slack can give two corners the same name.
         let mut last = None;
         kept.retain(|&mut (feature, _)| last.replace(feature) != Some(feature));
         let is_renamed = self.rename(&mut kept, spots, (polygon, places), depths.near);
@@ -193,8 +194,8 @@ impl<'a> Faces<'a> {
         Point { separation, on_a, on_b, feature }
     }
 
-    /// Names spots after what is near them, where that gives no two of them one name: see `super::near`. Whether any
-    /// got another name than that of what it lies on; most often none does.
+    /// Renames spots after a vertex or edge near them, unless two of them would get the same name: see `super::near`.
+    /// Returns whether any spot is near another feature than what it lies on; mostly none is.
     fn rename<const N: usize>(
         &self,
         kept: &mut [(FeatureId, usize)],
@@ -226,7 +227,7 @@ impl<'a> Faces<'a> {
         is_any
     }
 
-    /// The id of a feature of the reference face that meets one of the incident face.
+    /// The id of a feature of the reference face against one of the incident face.
     fn id(&self, [of_reference, of_incident]: [LiesOn; 2]) -> FeatureId {
         let feature = |(solid, face): (&Solid, usize), of: LiesOn| match of {
             LiesOn::Vertex(start) => {
@@ -245,7 +246,7 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// What a corner lies on, of the reference face and of the incident one.
+/// The features of the reference face and of the incident face that a corner lies on.
 fn lies_on(name: Name) -> [LiesOn; 2] {
     match name {
         Name::Incident(start) => [LiesOn::Face, LiesOn::Vertex(start)],
@@ -254,7 +255,7 @@ fn lies_on(name: Name) -> [LiesOn; 2] {
     }
 }
 
-/// A spot, where it stands on the incident surface, and what it is a corner of.
+/// A spot, its height on the incident surface, and the features it comes from.
 #[derive(Clone, Copy)]
 struct NamedSpot {
     spot: Spot,
@@ -263,7 +264,7 @@ struct NamedSpot {
     name: Name,
 }
 
-/// Spots around the patch.
+/// Spots in order around the patch.
 struct Spots<'d, const N: usize> {
     depths: &'d Depths,
     list: ArrayVec<NamedSpot, N>,
@@ -274,8 +275,8 @@ impl<'d, const N: usize> Spots<'d, N> {
         Self { depths, list: ArrayVec::new() }
     }
 
-    /// Takes a corner if it is wanted. Where edges run over corners, several features meet in one place: the
-    /// deepest names it, or of those that are as deep the first. `last` is the spot taken before.
+    /// Takes a corner if it is wanted. Where an edge runs over a corner, several features meet in one place: the
+    /// deepest of them is kept, or the first of equally deep ones. `last` is the spot taken before.
     fn offer(&mut self, corner: &Corner, height: f64, separation: f64, last: &mut Option<usize>) {
         if separation > self.depths.within {
             return;
@@ -293,7 +294,7 @@ impl<'d, const N: usize> Spots<'d, N> {
         let _ = self.list.try_push(new);
     }
 
-    /// The last spot of a round, which began at `first`, may be where the first is.
+    /// Merges the last spot of a loop with its first, at index `first`, if both are in the same place.
     fn close(&mut self, first: usize) {
         let [begin, .., end] = &self.list[first..] else { return };
         if is_near(begin.spot.at, end.spot.at, self.depths.slack) {
@@ -310,7 +311,7 @@ impl<'d, const N: usize> Spots<'d, N> {
     }
 }
 
-/// A vertex in the frame of the pair, in whose axes A stands.
+/// A vertex in the frame of the pair, whose axes are A's.
 #[inline]
 fn in_frame(solid: &Solid, is_b: bool, vertex: usize) -> DVec3 {
     if is_b { solid.point(vertex) } else { solid.vertices[vertex].as_dvec3() }
@@ -321,7 +322,7 @@ fn is_near(one: [f64; 2], other: [f64; 2], slack: f64) -> bool {
     x * x + y * y <= slack * slack
 }
 
-/// Spots of two rounds in one, clockwise about their middle.
+/// Sorts the spots of two loops into one, clockwise about their mean.
 fn put_around(spots: &mut [NamedSpot]) {
     let share = 1.0 / spots.len() as f64;
     let sum = spots.iter().fold([0.0, 0.0], |[x, y], spot| [x + spot.spot.at[0], y + spot.spot.at[1]]);

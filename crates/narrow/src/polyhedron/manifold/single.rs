@@ -1,4 +1,4 @@
-//! One contact point, where no two faces share a patch.
+//! A single contact point, where no two faces share a patch.
 
 use super::super::distance::Witness;
 use super::super::sat::{Axis, AxisOf};
@@ -9,10 +9,10 @@ use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::tolerance::ALIGNED_FACES;
 
-/// The nearest points of two edges that cross, each held to its edge.
+/// The contact point of two edges that cross: the nearest points of the two segments.
 ///
-/// Ericson, "Real-time collision detection" (2005), 5.1.9: where one place is held to an end, the other is the foot of
-/// that end. Edges that do not lie over each other are not those that touch: see [`point_over`].
+/// Ericson, "Real-time collision detection" (2005), 5.1.9: where one point is clamped to an end, the other is the foot
+/// of that end. If the edges do not lie over each other, they are not what touches: see [`point_over`].
 pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), axis: &Axis, slack: f64) -> Point {
     let normal = axis.normal;
     let ((a0, a1), (b0, b1)) = (a.edge(edges.0), b.edge(edges.1));
@@ -41,8 +41,8 @@ pub(super) fn edge_point(a: &Solid, b: &Solid, edges: (usize, usize), axis: &Axi
     point.on_surfaces([a.radius, b.radius], normal)
 }
 
-/// The deepest vertex of one shape, and its foot on the other's supporting plane: what is left where a face looks past
-/// what touches it. If other features that are as deep lie over each other, a point of those.
+/// The deepest vertex of one shape and its foot on the other's supporting plane: the fallback where a face is not over
+/// what touches it. If other features that are as deep lie over each other, a point of those is returned instead.
 pub(super) fn deepest_point(a: &Solid, b: &Solid, axis: &Axis, slack: f64) -> Point {
     if let Some((over, _)) = point_over(a, b, axis, slack) {
         return over.on_surfaces([a.radius, b.radius], axis.normal);
@@ -81,7 +81,8 @@ pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
     point.on_surfaces([a.radius, b.radius], witness.across)
 }
 
-/// The edges that the witness points of a gap lie on, if both lie on one, and not side by side: then they have no axis.
+/// The edges that the witness points of a gap lie on, if both lie on edges. Not of edges side by side: those have no
+/// axis.
 pub(in super::super) fn nearest_edges(a: &Solid, b: &Solid, witness: &Witness) -> Option<AxisOf> {
     let [Feature::Edge(edge_a), Feature::Edge(edge_b)] = carriers(a, b, witness) else { return None };
     let (edge_a, edge_b) = (edge_a as usize, edge_b as usize);
@@ -89,14 +90,14 @@ pub(in super::super) fn nearest_edges(a: &Solid, b: &Solid, witness: &Witness) -
     do_cross.then_some(AxisOf::Edges(edge_a, edge_b))
 }
 
-/// Whether two edges run so nearly alike that no axis of theirs is worth a name.
+/// Whether two edges are so nearly parallel that an axis across them is of no use.
 pub(in super::super) fn are_side_by_side((a, edge_a): (&Solid, usize), (b, edge_b): (&Solid, usize)) -> bool {
     let (along_a, along_b) = (a.edge_direction(edge_a), b.edge_direction(edge_b));
     let (cosine, squares) = (along_a.dot(along_b), along_a.length_squared() * along_b.length_squared());
     cosine * cosine >= ALIGNED_FACES * ALIGNED_FACES * squares
 }
 
-/// The least features that hold the witness points.
+/// The lowest-dimensional features that hold the witness points.
 fn carriers(a: &Solid, b: &Solid, witness: &Witness) -> [Feature; 2] {
     [(a, 0), (b, 1)].map(|(solid, which)| {
         let mut vertices: ArrayVec<usize, 4> = witness.corners.iter().map(|corner| corner[which]).collect();
@@ -107,7 +108,7 @@ fn carriers(a: &Solid, b: &Solid, witness: &Witness) -> [Feature; 2] {
     })
 }
 
-/// The least feature that holds all of these vertices.
+/// The lowest-dimensional feature that holds all of these vertices.
 pub(super) fn feature_of(solid: &Solid, vertices: &[usize]) -> Feature {
     let vertex = Feature::Vertex(vertices.first().map_or(0, |&v| v as u32));
     let (&[first, ..], topology) = (vertices, solid.topology) else { return vertex };
