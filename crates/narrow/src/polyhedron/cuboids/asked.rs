@@ -1,5 +1,4 @@
-//! The questions of a pair, as two cuboids answer them by themselves; what they cannot settle is left to the general
-//! path.
+//! The queries of a pair, answered by kernels for two cuboids. What they cannot settle is left to the general path.
 
 use super::super::gap::{Apart, Gap};
 use super::super::sat::{hint_of, hint_to, last_of};
@@ -14,7 +13,7 @@ use crate::feature::Hint;
 use crate::precision::{Precision, at_least, round_down, signed};
 use asunder_geometry::glam::DVec3;
 
-/// What two cuboids say of their contact.
+/// The answer to a contact query of two cuboids.
 #[derive(Clone, Copy)]
 pub(crate) enum Contact {
     /// Further apart than the margin, by so many metres at least.
@@ -23,12 +22,12 @@ pub(crate) enum Contact {
     Touching(Hint),
     /// Not overlapping, and no further apart than the margin.
     Near(Hint),
-    /// That takes more than the axes: the general path, with what is known to begin with.
+    /// It takes more than the axes: the general path must answer, starting from this hint.
     Unclear(Hint),
 }
 
 impl Posed<'_> {
-    /// Whether they overlap; nothing where rounding might have told.
+    /// Whether they overlap; `None` where rounding could change the answer.
     #[inline]
     pub(crate) fn overlaps(&self) -> Option<bool> {
         if self.are_far(0.0) {
@@ -41,7 +40,7 @@ impl Posed<'_> {
         placed.fifteen.overlap(placed.radii, &placed.precision)
     }
 
-    /// The separation within a limit; nothing where it takes more than the axes.
+    /// The separation within a limit; `None` where it takes more than the axes.
     #[inline]
     pub(crate) fn separation(&self, limit: f64) -> Option<Separation3> {
         if self.are_far(limit) {
@@ -50,7 +49,7 @@ impl Posed<'_> {
         separation_of(&self.placed(), limit)
     }
 
-    /// The same for one of eight, with the limit that it was put there with.
+    /// The same for one of eight pairs, with the limit that was given to [`Eight::put`].
     #[inline(always)]
     pub(crate) fn separation_in(&self, (eight, lane): (&Eight, usize), limit: f64) -> Option<Separation3> {
         if let Some(bound) = eight.parted_by_face(lane, self) {
@@ -62,8 +61,8 @@ impl Posed<'_> {
         }
     }
 
-    /// How they touch within a margin, or what keeps them apart. The manifold, where one is wanted, is filled in
-    /// where they touch.
+    /// How they touch within a margin, or what separates them. Where they touch, fills in the manifold, if one is
+    /// wanted.
     #[inline]
     pub(crate) fn contact(&self, margin: f64, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
         if self.are_far(margin) {
@@ -79,8 +78,8 @@ impl Posed<'_> {
         self.contact_of(&placed, margin, hint, manifold)
     }
 
-    /// What is clear at once of one of eight that were looked at, with the hint of its last frame. Whether they
-    /// overlap is enough for a sensor.
+    /// The answer for one of eight pairs, if it is clear at once, with the hint of its last frame. For a sensor, a
+    /// certain overlap is enough.
     #[inline(always)]
     pub(crate) fn clear_in(
         &self,
@@ -98,7 +97,7 @@ impl Posed<'_> {
         }
     }
 
-    /// The rest of [`Posed::contact`] for one of eight where nothing is clear at once.
+    /// The rest of [`Posed::contact`] for one of eight pairs, where nothing was clear at once.
     #[inline]
     pub(crate) fn contact_in(
         &self,
@@ -110,7 +109,7 @@ impl Posed<'_> {
         self.contact_of(&eight.placed(lane, self), margin, hint, manifold)
     }
 
-    /// Of a pair that no axis parts for certain.
+    /// The same for a pair that no axis separates for certain.
     #[inline]
     fn contact_of(
         &self,
@@ -141,7 +140,7 @@ impl Posed<'_> {
     }
 }
 
-/// The separation of the shapes within a limit; nothing where it takes more than the axes.
+/// The separation of the shapes within a limit; `None` where it takes more than the axes.
 #[inline(always)]
 fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
     match placed.settle(limit) {
@@ -159,7 +158,7 @@ fn separation_of(placed: &Placed, limit: f64) -> Option<Separation3> {
 }
 
 impl Placed {
-    /// The separation of sharp cuboids that this axis parts.
+    /// The separation of sharp cuboids that are apart, searched from an axis that separates them.
     #[inline(never)]
     fn gap(&self, towards: DVec3, limit: f64) -> Option<Separation3> {
         let Self { half: [half_a, half_b], relative: basis, offset, precision, .. } = *self;

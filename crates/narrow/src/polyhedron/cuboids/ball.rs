@@ -1,21 +1,21 @@
-//! A point against a cuboid: what is left of a ball and a cuboid without their radii.
+//! A point against a cuboid: a ball and a cuboid without their radii.
 //!
 //! ```text
 //! c = the point in the cuboid's axes, h = half extents
-//! outside    the closest point is c held to -h and h on every axis; the distance is how far that moves it
-//!            held on one axis, it lies on a face; on two, on an edge; on three, on a corner
+//! outside    the closest point is c clamped to -h and h on every axis; the distance is how far that moves it
+//!            clamped on one axis, it lies on a face; on two, on an edge; on three, on a corner
 //! inside     the least h_i - |c_i|; of equals, the lowest face: -x +x -y +y -z +z
 //! ```
-//! Closed form in place of an iteration and of all faces. The normal lies between those of the faces beside the closest
-//! point however small the gap: it needs no care where the point all but touches. Neither distance nor depth changes by
-//! more than the point moves, so that what rounding does to c, it does to the answer, and no more.
+//! The closed form replaces an iteration and a search of all faces. However small the gap, the normal lies between
+//! those of the faces beside the closest point, so that a point that nearly touches needs no special care. Distance and
+//! depth change by no more than the point moves: the answer has the rounding error of c, and no more.
 
 use super::names::edge_through;
 use crate::feature::Feature;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// A point and the place of a cuboid's surface that is nearest to it, in the cuboid's axes.
+/// A point, and the nearest point of a cuboid's surface, in the cuboid's axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     /// The distance, or minus the depth.
@@ -23,9 +23,9 @@ pub(crate) struct Nearest {
     /// Unit axis, out of the cuboid.
     pub(crate) normal: DVec3,
     pub(crate) on_cuboid: DVec3,
-    /// The corner nearest to the point, of equals the lowest.
+    /// The corner nearest to the point; of equals, the lowest.
     corner: u8,
-    /// The axes on which the nearest place is that corner's.
+    /// The axes on which the nearest point has that corner's coordinate.
     held: u8,
 }
 
@@ -58,7 +58,7 @@ impl Nearest {
         Self { separation: over[axis], normal, on_cuboid, corner, held: 1 << axis }
     }
 
-    /// What of the cuboid is nearest.
+    /// The feature of the cuboid that is nearest.
     pub(crate) fn feature(&self) -> Feature {
         let corner = usize::from(self.corner);
         match self.held {
@@ -73,8 +73,8 @@ impl Nearest {
         }
     }
 
-    /// Corners of the cuboid that carry the nearest place: a corner, both ends of an edge, or of a face the
-    /// triangle of the nearest corner and its neighbours, which holds the quarter that the place is in.
+    /// Corners of the cuboid that span the nearest point: a corner, both ends of an edge, or for a face the triangle of
+    /// the nearest corner and its neighbours, which contains the quarter that the point is in.
     pub(crate) fn corners(&self) -> ArrayVec<usize, 3> {
         let free = (0..3).filter(|axis| self.held >> axis & 1 == 0);
         let corner = usize::from(self.corner);

@@ -1,12 +1,12 @@
 //! The closest points of two cuboids that do not overlap.
 //!
 //! ```text
-//! spheres apart   towards each other's centre
-//! else            all fifteen axes at once: none parts them, or towards each other along the face that parts them the furthest
-//! from there on   as any two solids                                                                     (distance)
+//! spheres apart   start from the direction between the centres
+//! else            all fifteen axes at once: none separates them, or start from the face with the widest gap
+//! from there on   as for any two solids                                                                   (distance)
 //! ```
-//! No vertices and no faces are put together for it: what is furthest along a direction has its signs, and a corner is
-//! three signs.
+//! No vertices or faces are built for it: the support point along a direction has the direction's signs, and a corner
+//! is three signs.
 
 use super::Cuboids;
 use super::fifteen::Fifteen;
@@ -19,8 +19,8 @@ use crate::precision::Precision;
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
-/// Which sides of the three axes a corner is on. Looked up: asked of a corner's bits, each would be a branch that
-/// nobody can guess, and a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
+/// Which side of each of the three axes a corner is on. A table, because testing a corner's bits would be a branch each
+/// that nobody can predict, and a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
 const SIDES: [DVec3; 8] = [
     DVec3::new(-1.0, -1.0, -1.0),
     DVec3::new(1.0, -1.0, -1.0),
@@ -37,7 +37,7 @@ struct Home {
     half: DVec3,
 }
 
-/// B as A sees it: its centre, its axes, and the ways from there to three of its faces.
+/// B as seen from A: its centre, its axes, and the vectors from the centre to three of its faces.
 struct Guest {
     center: DVec3,
     axes: Basis3,
@@ -70,7 +70,7 @@ impl Polytope for Guest {
 }
 
 impl Posed<'_> {
-    /// The closest points, or that there are none since they overlap; nothing where that takes a closer look.
+    /// The closest points, or `Some(None)` where they overlap; `None` where that takes a closer look.
     pub(crate) fn distance(&self) -> Option<Option<Closest3>> {
         if self.are_near() {
             return Some(None);
@@ -105,15 +105,15 @@ impl Posed<'_> {
 }
 
 impl Cuboids {
-    /// Whether they have a gap between them, and where it is the narrowest, if that is no more than a limit in metres.
-    /// They are rounded by such radii.
+    /// Whether there is a gap between two cuboids rounded by these radii, and its closest points, if it is no wider
+    /// than a limit in metres.
     pub(crate) fn gap(&self, radii: [f32; 2], limit: f64, precision: &Precision) -> Gap {
         let apart = self.offset.length();
         let towards = if apart > precision.size + precision.projection() {
             self.offset / apart
         } else {
             let fifteen = self.fifteen();
-            // Of the cores: how wide a gap is that radii close, the points tell.
+            // Of the cores: if the radii close the gap between those, its width follows from the closest points.
             match fifteen.overlap(0.0, precision) {
                 Some(true) => return Gap::Overlapping,
                 Some(false) => self.best_face(&fifteen),
@@ -123,7 +123,7 @@ impl Cuboids {
         self.gap_along(towards, radii, limit, precision)
     }
 
-    /// The same of cuboids whose cores are apart, sought from a unit axis on.
+    /// The same for cuboids whose cores are apart, searched from a unit axis.
     pub(super) fn gap_along(
         &self,
         towards: DVec3,
@@ -139,13 +139,13 @@ impl Cuboids {
         Gap::of(&reached, radii, beyond, precision)
     }
 
-    /// As in `Posed::placed`: out of line, for LLVM to see rows.
+    /// Not inlined, as `Posed::placed`: so that LLVM sees rows.
     #[inline(never)]
     fn fifteen(&self) -> Fifteen {
         Fifteen::new(&[self.half_a, self.half_b], &self.basis, self.offset)
     }
 
-    /// From A to B along the face that parts them the furthest.
+    /// From A to B along the normal of the face that separates them the furthest.
     fn best_face(&self, fifteen: &Fifteen) -> DVec3 {
         let (mut best, mut axis) = (f64::NEG_INFINITY, DVec3::X);
         let of_b = &fifteen.faces_b.0[..3];

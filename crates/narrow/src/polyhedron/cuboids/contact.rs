@@ -1,5 +1,5 @@
-//! How two cuboids touch, and where they nearly do (`super::gap`): the rules of `super::super::manifold`, for sharp
-//! cuboids.
+//! Contact points of two sharp cuboids that overlap, and what those in a gap share with them (`super::gap`). The rules
+//! are those of `super::super::manifold`.
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};
@@ -19,7 +19,7 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::ALIGNED_FACES;
 
 impl Manifold3 {
-    /// To be filled in place: it is large, and every move of it shows.
+    /// To be filled in place: it is large, and every copy of it costs.
     pub(crate) const BLANK: Self = Self {
         part_a: 0,
         part_b: 0,
@@ -30,25 +30,25 @@ impl Manifold3 {
     };
 }
 
-/// Two cuboids that overlap or nearly do, and what their points are measured by.
+/// Two cuboids that overlap or nearly do, with what their contact points are built from.
 pub(super) struct Touching<'a> {
     pub(super) posed: &'a Posed<'a>,
     pub(super) placed: &'a Placed,
     pub(super) best: &'a Best,
     /// Points no higher than this are wanted, in metres.
     pub(super) margin: f64,
-    /// What the points of the last frame were measured from.
+    /// The axis on which the points of the last frame were built.
     pub(super) last: Option<AxisOf>,
 }
 
 impl Touching<'_> {
-    /// What the points are measured from.
+    /// The axis on which the points are built.
     #[inline(always)]
     pub(super) fn measured_from(&self) -> AxisOf {
         self.kept().unwrap_or_else(|| self.preferred())
     }
 
-    /// Fills in a manifold measured from there; nothing where the general path must be asked.
+    /// Fills in a manifold built on an axis; `None` where the general path must take over.
     #[inline(always)]
     pub(super) fn fill(&self, of: AxisOf, manifold: &mut Manifold3) -> Option<()> {
         let Self { placed, best, .. } = *self;
@@ -66,7 +66,7 @@ impl Touching<'_> {
         Some(())
     }
 
-    /// What the last frame's points were measured from, until another axis beats it by more than two preferences.
+    /// The axis of last frame's points, unless another beats it by more than two preferences.
     #[inline(always)]
     fn kept(&self) -> Option<AxisOf> {
         let Self { placed, best, .. } = *self;
@@ -87,7 +87,7 @@ impl Touching<'_> {
         (separation >= best.separation() - 2.0 * placed.preference).then_some(last)
     }
 
-    /// A face of A, unless one of B, or edges, beat it by more than the preference.
+    /// A face of A, unless a face of B or two edges beat it by more than the preference.
     #[inline(always)]
     fn preferred(&self) -> AxisOf {
         let Self { placed, best, .. } = *self;
@@ -100,13 +100,14 @@ impl Touching<'_> {
         }
     }
 
-    /// Points no higher than this are as deep as any.
+    /// Points no higher than this count as deepest.
     #[inline(always)]
     fn deep(&self) -> f64 {
         self.best.separation() + self.placed.preference
     }
 
-    /// Asks about what a face shares with the face that looks at it. It is large, and stays where it is made.
+    /// Passes the patch of a face and its incident face to `ask`. A patch is large, and is not moved from where it is
+    /// made.
     #[inline(always)]
     pub(super) fn over_face<R>(
         &self,
@@ -120,7 +121,7 @@ impl Touching<'_> {
         ask(&wide::patch(&faces, &Wanted { reference, within, slack, near }))
     }
 
-    /// Points of the faces beside two edges, if they nearly look at each other; else the point where the edges cross.
+    /// Points of the faces beside two edges, if they nearly face each other; else the point where the edges cross.
     #[inline(never)]
     fn over_edges(&self, edge_a: usize, edge_b: usize, manifold: &mut Manifold3) -> Option<()> {
         let Self { placed, best, .. } = *self;
@@ -134,11 +135,11 @@ impl Touching<'_> {
         (f64::from(point.separation) <= self.deep()).then_some(())
     }
 
-    /// What the faces that an axis from A to B nearly is normal to share as seen along it.
+    /// Points of the two faces that an axis from A to B is nearly normal to, as projected along the axis.
     ///
-    /// So most cuboids touch that tremble on each other: of 64 pairs that lean by some 1e-4 rad, 4.6 thousand
-    /// instructions a pair in all, and 10.0 where the general path was asked for these (AMD EPYC, Zen 4, 2 virtual
-    /// cores, 2026-11-22).
+    /// Most cuboids that tremble on each other touch in this way: of 64 pairs that lean by some 1e-4 rad, a pair takes
+    /// 4.6 thousand instructions in all, and 10.0 where the general path took these (AMD EPYC, Zen 4, 2 virtual cores,
+    /// 2026-11-22).
     #[inline(never)]
     pub(super) fn over_leaning(&self, normal: DVec3, manifold: &mut Manifold3) -> Option<()> {
         let (slack, near, deep) = (self.placed.preference, self.placed.near, self.deep());
@@ -152,14 +153,14 @@ impl Touching<'_> {
         wide::fill(self, &patch, Some(self.placed.basis.turn(normal)), manifold)
     }
 
-    /// At most four corners of a patch as contacts; nothing where none is as deep as the axis says.
+    /// At most four corners of a patch as contact points; `None` where none is as deep as the axis says.
     #[inline(always)]
     pub(super) fn fill_over(&self, patch: &Patch, manifold: &mut Manifold3) -> Option<()> {
         wide::fill(self, patch, None, manifold)
     }
 
-    /// The same along whatever axis the heights of the patch are: the reference face's own, or one that leans. To be
-    /// called through `super::wide`, which compiles it.
+    /// The same along whatever axis the patch's heights are measured: the reference face's normal, or a leaning axis.
+    /// To be called through `super::wide`, which compiles it.
     #[inline(always)]
     pub(super) fn fill_along(
         &self,
@@ -200,14 +201,14 @@ impl Touching<'_> {
         Some(())
     }
 
-    /// The nearest points of two edges that cross, each held to its edge, as a contact.
+    /// The nearest points of two edges that cross, as a contact point.
     #[inline]
     fn crossing(&self, normal: DVec3, edge_a: usize, edge_b: usize) -> ContactPoint3 {
         let nearest = self.placed.nearest_of(edge_a, edge_b);
         self.contact_at(nearest, normal, (edge_a, edge_b))
     }
 
-    /// Points of two edges, in A's axes, as a contact.
+    /// A contact point from two edges' points, which are in A's axes.
     #[inline(always)]
     pub(super) fn contact_at(
         &self,
@@ -220,7 +221,7 @@ impl Touching<'_> {
         let out = basis.turn(normal).as_vec3().as_dvec3() * f64::from(separation);
         let is_by_a = stays_on_a(false, self.placed.half.map(DVec3::length_squared));
         let held = if is_by_a { basis.turn(on_a) } else { basis.turn(on_b - *offset) };
-        // As it is told.
+        // Rounded as it is reported.
         let held = held.as_vec3().as_dvec3();
         let [anchor_a, anchor_b] = ends(held, is_by_a, self.posed.between(), out);
         ContactPoint3 {
@@ -233,7 +234,7 @@ impl Touching<'_> {
 }
 
 impl Placed {
-    /// The nearest points of two lines, each held to its edge; in A's axes.
+    /// The nearest points of two edges' lines, each clamped to its edge; in A's axes.
     #[inline]
     pub(super) fn nearest_of(&self, edge_a: usize, edge_b: usize) -> [DVec3; 2] {
         let Self { half, offset, .. } = self;
@@ -255,13 +256,14 @@ impl Placed {
     }
 }
 
-/// Whether a face of a cuboid nearly looks along a direction in its axes, or against it.
+/// Whether a face of a cuboid nearly faces along a direction given in its axes, or against it.
 #[inline(always)]
 pub(super) fn looks(direction: DVec3) -> bool {
     direction.abs().max_element() >= ALIGNED_FACES
 }
 
-/// Slots by what they are near, in place of what they lie on: those that would be named alike keep their names.
+/// Renames slots after what they are near, instead of what they lie on. Those that would get the same name keep their
+/// own.
 #[inline(never)]
 fn named_near(patch: &Patch, order: &[u32], near: f64) -> [u32; 4] {
     let (mut named, mut alike) = ([u32::MAX; 4], 0);
@@ -280,7 +282,7 @@ fn named_near(patch: &Patch, order: &[u32], near: f64) -> [u32; 4] {
     named
 }
 
-/// Ascending: five comparisons.
+/// Sorts ascending, by five comparisons.
 #[inline(always)]
 fn sort(order: &mut [u32; 4]) {
     for (i, j) in [(0, 1), (2, 3), (0, 2), (1, 3), (1, 2)] {
@@ -289,18 +291,18 @@ fn sort(order: &mut [u32; 4]) {
     }
 }
 
-/// A reference face in the world, to make anchors from.
+/// A reference face in the world, from which anchors are computed.
 struct Over {
-    /// From the reference body's position to the middle of the face.
+    /// From the reference body's position to the centre of the face.
     middle: DVec3,
     u: DVec3,
     v: DVec3,
-    /// Out of the reference face, or the axis that heights are along where that leans.
+    /// Outward normal of the reference face, or the axis along which heights are measured where that leans.
     out: DVec3,
     /// From the other body's position to the reference body's.
     back: DVec3,
     is_b: bool,
-    /// Whether points' ends on the face stay where they are, and the others are plumb.
+    /// Whether the points' ends on the face are kept, and the other ends derived from them: see `crate::plumb`.
     do_feet_stay: bool,
 }
 
@@ -320,9 +322,9 @@ impl Over {
         Self { middle, u: axes[u], v: axes[v], out, back, is_b, do_feet_stay }
     }
 
-    /// Writes contacts, by the slots in the low bits of their names, and the normal.
+    /// Writes contact points and the normal. Each entry of `order` is a name, with a slot in its low bits.
     ///
-    /// Coordinate by coordinate, four points side by side: as many as there can be, whether they are there or not.
+    /// Coordinate by coordinate, always four points side by side, however many there are.
     #[inline(always)]
     fn write(&self, patch: &Patch, order: &[u32], manifold: &mut Manifold3) {
         let mut places = [Lanes::<4>::ZERO; 3];
@@ -338,7 +340,7 @@ impl Over {
             let back = Lanes::all(self.back[c]);
             let foot = Lanes::all(self.middle[c]) + (u * self.u[c] + v * self.v[c]);
             let other = foot + height * self.out[c] + back;
-            // One end by the other, and by the normal and the height as they are told.
+            // One end is derived from the other, by the normal and the height as they are rounded for the report.
             let out = height.rounded() * f64::from(self.out[c] as f32);
             let (foot, other) = if self.do_feet_stay {
                 (foot, foot.rounded() + back + out)
@@ -353,7 +355,7 @@ impl Over {
         manifold.normal = if self.is_b { -self.out } else { self.out }.as_vec3();
         let mut last = u32::MAX;
         for (k, &names) in order.iter().enumerate().take(4) {
-            // The same twice, where three corners hold all of the patch, is one.
+            // A slot listed twice, where three corners span the whole patch, is one point.
             if names == last {
                 continue;
             }

@@ -1,15 +1,15 @@
-//! Eight pairs of cuboids side by side: B as A sees it, and what the fifteen axes say.
+//! Eight pairs of cuboids side by side: B's placement relative to A, and the fifteen axes.
 //!
 //! ```text
 //! gather eight pairs, number by number
-//! for each lane:   rotations, offset, fifteen axes     (the very functions that one pair goes through)
-//!                  the axis that parts them, or how far they overlap on all
-//! those that are parted are done; the others go on as one pair does, from what is there already
+//! for each lane:   rotations, offset, fifteen axes     (the very functions that a single pair uses)
+//!                  the axis that separates the pair, or how far it overlaps on all axes
+//! separated pairs are done; the others go on like a single pair, from the values that are here already
 //! ```
-//! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since
-//! all that a lane goes through is the code of one pair, its bits are those of one pair.
+//! A loop over the lanes, from memory to memory, is what LLVM turns into vector instructions of any width. Since each
+//! lane runs the code of a single pair, its results equal a single pair's bit by bit.
 //!
-//! What it bought on pairs that a broad phase hands over, in ns per pair (AMD EPYC, Zen 4, 2026-11-21):
+//! Gains on pairs that a broad phase hands over, in ns per pair (AMD EPYC, Zen 4, 2026-11-21):
 //!
 //! | | yes or no | separation | contact points |
 //! |---|---|---|---|
@@ -18,12 +18,14 @@
 //! | 2. the same with AVX2 | 27 | 73 | 152 |
 //! | 3. axes graded side by side (`super::graded`) | 39 | 57 | 160 |
 //!
-//! 1 and 2 are used, and 3 where a separation is all that is asked for; and AVX-512 where there is one, whose registers
-//! hold all eight. On AMD EPYC, Zen 4, which takes two steps for one of those, that is nothing on yes or no and 5 to 13
-//! % on separations; on Zen 5, which takes one, yes or no takes 0.88 of the time of AVX2, separations 0.89, contact
-//! points 0.99 (2026-11-25). Tried, and left out: 3 for contact points with AVX-512 (a frame of boxes that fall 1.02
-//! times as long); inscribed spheres before the lanes (nothing on such pairs; one pair by itself gains 10 %). Last
-//! frame's axis is not tried before the others here: all fifteen cost 12 ns.
+//! Used are 1 and 2; 3 where only a separation is asked for; and AVX-512 where available, whose registers hold all
+//! eight. On AMD EPYC, Zen 4, which takes two steps for each of those, AVX-512 gains nothing on yes or no and 5 to 13 %
+//! on separations. On Zen 5, which takes one, yes or no takes 0.88 of the time of AVX2, separations 0.89, contact
+//! points 0.99 (2026-11-25).
+//!
+//! Tried, and left out: 3 for contact points with AVX-512 (a frame of boxes that fall 1.02 times as long); inscribed
+//! spheres before the lanes (no gain on such pairs; a pair by itself gains 10 %). Last frame's axis is not tried first
+//! here: all fifteen cost 12 ns.
 
 use super::super::sat::AxisOf;
 use super::asked::measured;
@@ -38,12 +40,12 @@ use crate::precision::{Precision, at_least};
 use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
-/// How many pairs.
+/// How many pairs there are.
 pub(crate) const LANES: usize = 8;
 
 type Row<T = f64> = [T; LANES];
 
-/// What is asked of eight pairs.
+/// The input for eight pairs.
 #[derive(Clone)]
 pub(super) struct Asked8 {
     rotations: [[Row<f32>; 4]; 2],
@@ -51,11 +53,11 @@ pub(super) struct Asked8 {
     between: [Row; 3],
     /// Both cores' sizes and both radii, in metres.
     sizes: Row,
-    /// Further apart than this is all that need be known, in metres.
+    /// Only gaps up to this need be known exactly, in metres.
     limits: Row,
 }
 
-/// What eight pairs look like.
+/// The input and the results of eight pairs.
 #[derive(Clone)]
 pub(crate) struct Eight {
     asked: Asked8,
@@ -75,7 +77,7 @@ pub(super) struct Seen8 {
     parted: Row,
     /// Below zero where the cores overlap for certain.
     deep: Row,
-    /// As [`Graded`] has them, in its order.
+    /// The fields of [`Graded`], in its order.
     graded: [Row; 6],
 }
 
@@ -121,21 +123,21 @@ impl Eight {
         asked.limits[k] = margin + size.radii;
     }
 
-    /// Looks at what was put in, and grades the axes where that is wanted: it is half as much again, and pays where
-    /// nothing but a number is asked for. Lanes that hold nothing say nothing.
+    /// Computes all lanes, and grades the axes if `GRADED`. Grading takes half as long again, and pays where only a
+    /// number is asked for. Lanes that hold no pair have no meaning.
     #[inline]
     pub(crate) fn look<const GRADED: bool>(&mut self) {
         wide::look::<GRADED>(&self.asked, &mut self.seen);
     }
 
-    /// What parts a pair for certain: as [`Placed::parted`] has it.
+    /// The axis that separates a pair for certain: as [`Placed::parted`].
     #[inline(always)]
     pub(crate) fn parted(&self, lane: usize) -> Option<AxisOf> {
         let (k, seen) = (lane % LANES, &self.seen);
         parted_by(seen.parted[k], |axis| seen.offset[axis][k] >= 0.0, |axis| seen.ahead[axis][k] >= 0.0)
     }
 
-    /// What the best face bounds the separation by, where it parts a pair: as [`Placed::settle`] has it.
+    /// A lower bound on the separation from the best face, where a face separates the pair: as in [`Placed::settle`].
     #[inline(always)]
     pub(super) fn parted_by_face(&self, lane: usize, posed: &Posed) -> Option<f32> {
         let (k, seen) = (lane % LANES, &self.seen);
@@ -175,7 +177,7 @@ impl Eight {
         self.seen.deep[lane % LANES] < 0.0
     }
 
-    /// The best axes of a pair that nothing parts, where they were graded and could be told.
+    /// The best axes of a pair that no axis separates, if they were graded and that settled them.
     #[inline(always)]
     pub(super) fn best(&self, lane: usize) -> Option<Best> {
         let (k, seen) = (lane % LANES, &self.seen);
@@ -184,7 +186,7 @@ impl Eight {
         Graded { is_settled, face_a, face_b, pair, edges, short }.best(faces)
     }
 
-    /// One pair, as it would be by itself.
+    /// A pair, as [`Posed::placed`] would return it.
     #[inline(always)]
     pub(super) fn placed(&self, lane: usize, posed: &Posed) -> Placed {
         let k = lane % LANES;

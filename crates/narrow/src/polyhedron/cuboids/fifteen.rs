@@ -1,13 +1,13 @@
-//! All fifteen axes of two cuboids at once.
+//! All fifteen axes of two cuboids, computed at once.
 //!
 //! ```text
 //! R = B's axes seen from A (columns), t = B's centre seen from A, h, k = half extents, i+1 and i+2 modulo 3
-//! face i of A     |t_i|                         - h_i                             - sum k_j |R_ij|
-//! face j of B     |sum t_i R_ij|                - sum h_i |R_ij|                  - k_j
-//! edges i, j      |t_i+2 R_i+1,j - t_i+1 R_i+2,j| - h_i+1 |R_i+2,j| - h_i+2 |R_i+1,j| - k_j+1 |R_i,j+2| - k_j+2 |R_i,j+1|
-//!                 along an axis of squared length R_i+1,j^2 + R_i+2,j^2
+//! face i of A  |t_i|                         - h_i                             - sum k_j |R_ij|
+//! face j of B  |sum t_i R_ij|                - sum h_i |R_ij|                  - k_j
+//! edges i, j   |t_i+2 R_i+1,j - t_i+1 R_i+2,j| - h_i+1 |R_i+2,j| - h_i+2 |R_i+1,j| - k_j+1 |R_i,j+2| - k_j+2 |R_i,j+1|
+//!              along an axis of squared length R_i+1,j^2 + R_i+2,j^2
 //! ```
-//! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A and B's axes are rows of four lanes, the last of them
+//! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). The axes of A and of B are rows of four lanes, the last one
 //! padding, and nothing branches. No axis is normalised here: lengths enter as squares, and only where they matter.
 
 use crate::lanes::Lanes;
@@ -16,7 +16,7 @@ use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
 
-/// The separations of the cores along fifteen axes, those of edges times the axis' length.
+/// The separations of the cores along fifteen axes. Those of edge pairs are times the length of their axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fifteen {
     pub(super) faces_a: [f64; 3],
@@ -25,14 +25,14 @@ pub(super) struct Fifteen {
     pub(super) ahead: Row,
     /// Row `i`, column `j`: the edges along axis `i` of A and axis `j` of B.
     pub(super) edges: [Row; 3],
-    /// Squared lengths of the edges' axes: of the sines of their angles.
+    /// Squared lengths of the edge pairs' axes, which are squared sines of the edges' angles.
     pub(super) squared: [Row; 3],
 }
 
 type Row = Lanes<4>;
 
 impl Fifteen {
-    /// All of it.
+    /// Computes all of it.
     #[inline(always)]
     pub(super) fn new(half: &[DVec3; 2], relative: &Basis3, offset: DVec3) -> Self {
         let (h, k, t) = (half[0].to_array(), half[1].to_array(), offset.to_array());
@@ -40,7 +40,7 @@ impl Fifteen {
         let rows = [Lanes([x.x, y.x, z.x, 0.0]), Lanes([x.y, y.y, z.y, 0.0]), Lanes([x.z, y.z, z.z, 0.0])];
         let sizes = [rows[0].abs(), rows[1].abs(), rows[2].abs()];
         let squares = [rows[0] * rows[0], rows[1] * rows[1], rows[2] * rows[2]];
-        // Where lane `j` needs the next of B's axes, and the one after: the padding shows an overlap without end.
+        // `next` and `after` are the two other half extents of B for lane `j`. The padding shows an infinite overlap.
         let (next, after) = (Lanes([k[1], k[2], k[0], f64::MAX]), Lanes([k[2], k[0], k[1], 0.0]));
         let edges = |i: usize, n: usize, m: usize| {
             let [x, y, z, _] = sizes[i].0;
@@ -71,8 +71,8 @@ impl Fifteen {
         (self.edges[i].0[j], self.squared[i].0[j])
     }
 
-    /// The edge pair that parts the cores the furthest, of those that part them and are not parallel up to rounding; or
-    /// less than the furthest where two are all but alike. Nothing where none parts them.
+    /// The edge pair with the greatest separation, of those that separate the cores and are not parallel up to
+    /// rounding. Where two are nearly equal, rounding may choose the lesser. `None` where none separates them.
     #[inline]
     pub(super) fn best_edges(&self) -> Option<usize> {
         let (mut best, mut most) = (None, 0.0);
@@ -85,8 +85,8 @@ impl Fifteen {
         best
     }
 
-    /// Whether an edge pair parts the cores by more than `limit` metres, which is not negative, and more than its
-    /// closed form may be off by.
+    /// Whether an edge pair separates the cores by more than `limit` metres, which is not negative, plus the error
+    /// bound of its closed form.
     #[inline(always)]
     pub(super) fn do_edges_part(&self, limit: f64, doubt: f64) -> bool {
         let (squared_limit, mut part) = (limit * limit, false);
@@ -100,7 +100,7 @@ impl Fifteen {
         part
     }
 
-    /// The greatest of all, none of them normalised.
+    /// The greatest of all separations, none of them normalised.
     #[inline(always)]
     pub(super) fn top(&self) -> f64 {
         let greater = |a: f64, b: f64| if a > b { a } else { b };
@@ -110,7 +110,7 @@ impl Fifteen {
         greater(faces, edges)
     }
 
-    /// Whether cuboids overlap that are rounded by so many metres together; nothing where rounding might have told, or
+    /// Whether cuboids with such a sum of radii, in metres, overlap. `None` where rounding could change the answer, or
     /// only their radii close the gap.
     #[inline(always)]
     pub(super) fn overlap(&self, radii: f64, precision: &Precision) -> Option<bool> {
@@ -124,7 +124,7 @@ impl Fifteen {
         if top > doubt {
             return None;
         }
-        // Axes of parallel edges are of no length, and say nothing: boxes on a grid have three of them or more.
+        // Axes of parallel edges have no length, and prove nothing: boxes on a grid have three of them or more.
         let (mut top, mut least) = (f64::NEG_INFINITY, 0.0_f64);
         for n in 0..6 {
             top = top.max(if n < 3 { self.faces_a[n] } else { self.faces_b.0[n - 3] });
@@ -140,10 +140,10 @@ impl Fifteen {
         (top < -doubt - least).then_some(true)
     }
 
-    /// The axis that parts the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's,
-    /// from 6 for edge pairs; -1 where there is none. Of faces the best one counts.
+    /// An axis that separates the cores by more than `limit` metres for certain: 0 to 2 for A's faces, 3 to 5 for B's,
+    /// from 6 for edge pairs; -1 where there is none. Of faces, the best; edge pairs only where no face does.
     ///
-    /// An edge pair counts by its closed form less what that may be off by, both times the axis' length.
+    /// For an edge pair the error bound is subtracted from its closed form, both times the axis' length.
     #[inline(always)]
     pub(super) fn parted(&self, limit: f64, precision: &Precision) -> f64 {
         let (limit, doubt) = (limit + precision.projection(), closed_form(precision));
@@ -166,7 +166,7 @@ impl Fifteen {
     }
 }
 
-/// What closed forms are off by at most, times the axis' length.
+/// Error bound of the closed forms, times the axis' length.
 #[inline(always)]
 pub(super) fn closed_form(precision: &Precision) -> f64 {
     1.5 * precision.projection()

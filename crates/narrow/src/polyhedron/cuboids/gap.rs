@@ -1,20 +1,20 @@
-//! Two cuboids in a gap that a face spans, or two edges that cross.
+//! Two cuboids apart, with the gap between a face and the other cuboid, or between two edges that cross.
 //!
 //! ```text
-//! s   the separation along the best face's normal: the distance is no less
-//! h   the height of the lowest corner of the patch that this face shares with the one that looks at it: a point of one
-//!     cuboid straight over a point of the other, so that the distance is no more
-//! h = s up to rounding: that is the distance, and neither edges nor an iteration need be asked
-//! else the same of the best edges: s along the axis that is normal to both, h between their nearest points
+//! s   the separation along the best face's normal: a lower bound on the distance
+//! h   the height of the lowest corner of the patch of this face and its incident face: there, a point of one cuboid is
+//!     straight over a point of the other, so that h is an upper bound
+//! h = s up to rounding: that is the distance, and neither edges nor an iteration are needed
+//! else the same for the best edges: s along the axis that is normal to both, h between their nearest points
 //! ```
-//! The contact points are corners of a patch as in overlap, mostly of the very same one; or the point where edges
-//! cross. Anything else that is nearest, a corner to an edge or a corner to a corner, is left to the general path, and
-//! so are edges that may lie side by side.
+//! The contact points are corners of a patch as in overlap, mostly of the very same patch; or the point where edges
+//! cross. Any other nearest features, such as a corner and an edge or two corners, are left to the general path, and so
+//! are edges that may lie side by side.
 //!
-//! Of a pile of boxes of which a third of the pairs is parted by less than the margin, nine tenths of those are told
-//! here, in 0.35 us where the general path took 2.5 (AMD EPYC, Zen 4, 2026-11-21). Of a heap of boxes that falls, five
-//! of six pairs that took the general path are told by edges, in 0.4 k instructions where that took 3.5 k: 0.79 of a
-//! frame's time (2026-11-23).
+//! In a pile of boxes where a third of the pairs is apart by less than the margin, nine tenths of those are answered
+//! here, in 0.35 us where the general path took 2.5 (AMD EPYC, Zen 4, 2026-11-21). In a heap of boxes that falls, five
+//! of six pairs that took the general path are answered by edges, in 0.4 k instructions where that took 3.5 k: 0.79 of
+//! a frame's time (2026-11-23).
 
 use super::super::sat::{AxisOf, hint_to, hint_with};
 use super::asked::Contact;
@@ -29,13 +29,13 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::ALIGNED_FACES;
 
 /// The least cosine between two faces whose patch bounds a distance: heights at the corners of the reference face are
-/// quotients by it. Only plates as thin as a preference come below the root of a third.
+/// divided by it. Only plates as thin as a preference come below the root of a third.
 const LEVEL: f64 = 0.5;
 
 impl Touching<'_> {
-    /// Whether the shapes are within the margin, and the manifold, filled in where one is wanted.
+    /// Whether the shapes are within the margin. Fills in the manifold, if one is wanted.
     ///
-    /// Out of line: within what is asked of pairs that overlap it made those 6 % slower.
+    /// Not inlined: inlined into the queries of overlapping pairs, it made those 6 % slower.
     #[inline(never)]
     pub(super) fn across(&self, hint: Hint, manifold: Option<&mut Manifold3>) -> Contact {
         let of = self.measured_from();
@@ -53,12 +53,12 @@ impl Touching<'_> {
         contact.unwrap_or_else(|| self.across_edges(manifold).unwrap_or(Contact::Unclear(hint)))
     }
 
-    /// Whether two edges part them by more than the best face for certain: then no corner of a patch is as low as that
-    /// says, and none need be looked at.
+    /// Whether two edges separate the cuboids by more than the best face for certain. Then no corner of a patch can be
+    /// as low as the face's separation, and no patch need be made.
     ///
-    /// Heights at a patch's corners are no less than the distance but for two projections, and the distance no less
-    /// than what edges show but for one more. Of a heap of boxes that falls, a fifth of all pairs across a gap went
-    /// through a patch for nothing, and none does now: a hundredth of a frame (AMD EPYC, Zen 5, 2026-11-24).
+    /// Heights at a patch's corners are at least the distance less two projections' rounding, and the distance is at
+    /// least the edges' separation less one more. In a heap of boxes that falls, a fifth of all pairs across a gap made
+    /// a patch in vain, and none does now: a hundredth of a frame (AMD EPYC, Zen 5, 2026-11-24).
     #[inline(always)]
     fn is_beyond_faces(&self) -> bool {
         let Self { placed, best, .. } = *self;
@@ -67,14 +67,14 @@ impl Touching<'_> {
         best.edges.is_none() && placed.fifteen.do_edges_part(least + doubt, placed.closed_form())
     }
 
-    /// The same by the best two edges; nothing where they are not what is nearest, or not alone.
+    /// [`Touching::across`] for the best two edges; `None` where they are not what is nearest, or not the only ones.
     #[inline(never)]
     fn across_edges(&self, manifold: Option<&mut Manifold3>) -> Option<Contact> {
         let Self { placed, best, .. } = *self;
         let pair = placed.fifteen.best_edges()?;
         let normal = placed.edge_normal(pair);
         let least = placed.along(normal);
-        // A face that all but parts them has its points asked first.
+        // A face that is nearly as good is asked for points first.
         if least <= best.of_faces() + 2.0 * placed.preference {
             return None;
         }
@@ -110,24 +110,24 @@ impl Touching<'_> {
         Some(Contact::Near(hint_to(edges)))
     }
 
-    /// Whether edges may lie side by side across a gap, as seen along a normal in the axes of both.
+    /// Whether edges may lie side by side across a gap, as seen along a normal, which is given in the axes of both.
     #[inline(always)]
     fn may_lie_beside(&self, towards: [DVec3; 2]) -> bool {
-        // They lean by as little as faces that look at each other.
+        // The squared sine of the angle at which faces still count as facing each other.
         const LEAN: f64 = 1.0 - ALIGNED_FACES * ALIGNED_FACES;
         let runs_across = |lean: f64| lean * lean <= LEAN;
         let are_alike = |i: usize, j: usize| self.placed.axis_b(j)[i].abs() >= ALIGNED_FACES;
         let [from_a, from_b] = towards;
-        // Few axes run across, and mostly none.
+        // Few axes run across the normal, and mostly none.
         let lies_beside = |i: usize| (0..3).any(|j| runs_across(from_b[j]) && are_alike(i, j));
         (0..3).any(|i| runs_across(from_a[i]) && lies_beside(i))
     }
 
-    /// The same by the patch over a face; nothing where more than rounding may be between both bounds.
+    /// [`Touching::across`] for the patch of a face; `None` where the two bounds may differ by more than rounding.
     ///
-    /// A corner of the patch is off its place by less than 88 u reach, two projections: one for where the incident
-    /// cuboid stands; 8 u for where an edge crosses a side, along the side and across; 12 u for the height at a
-    /// corner of the reference face, over a face that is tilted by 60 degrees at most.
+    /// A corner of the patch is off its place by less than 88 u reach, two projections. One is for the placement of the
+    /// incident cuboid; the rest covers 8 u for the crossing of an edge and a side, along the side and across, and 12 u
+    /// for the height at a corner of the reference face, over a face that is tilted by 60 degrees at most.
     #[inline(always)]
     fn told(&self, of: AxisOf, patch: &Patch, manifold: Option<&mut Manifold3>) -> Option<Contact> {
         let Self { placed, best, .. } = *self;
@@ -140,7 +140,7 @@ impl Touching<'_> {
             return None;
         }
         let separation = signed(least, false);
-        // The margin is that of the caller and one ulp: what rounds to it counts.
+        // The margin is the caller's plus one ulp: what rounds to the caller's counts.
         if f64::from(separation) >= self.margin {
             return Some(Contact::Apart(hint_to(of), 0.0));
         }
@@ -154,7 +154,7 @@ impl Touching<'_> {
         Some(Contact::Near(hint_to(of)))
     }
 
-    /// The height of the lowest corner over the best face, where the points are measured from another.
+    /// The height of the lowest corner over the best face, where the points are built on another face.
     #[inline(never)]
     fn lowest_over(&self, nearest: AxisOf) -> Option<f64> {
         let lowest = |patch: &Patch| Some(self.placed.lowest(patch));
@@ -167,7 +167,7 @@ impl Touching<'_> {
 }
 
 impl Placed {
-    /// The height of a patch's lowest corner; without end where the faces are too steep to tell.
+    /// The height of a patch's lowest corner; infinite where the faces are too steep to tell.
     #[inline(always)]
     fn lowest(&self, patch: &Patch) -> f64 {
         let Reference { is_b, face, incident } = patch.reference;

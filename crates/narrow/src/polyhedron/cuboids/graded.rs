@@ -1,28 +1,29 @@
-//! The best axes of two cores that overlap, without a branch: what
-//! [`Placed::settle`](super::placed::Placed::settle) does step by step, for kernels that hold many pairs side by side.
+//! The best axes of two cores that overlap, without a branch: for kernels with many pairs side by side, the same as
+//! [`Placed::settle`](super::placed::Placed::settle) finds step by step.
 //!
 //! ```text
 //! best face of A, of B                   as there
-//! all nine edge pairs are normalised     those that cannot matter count for nothing
-//! settled     they overlap for certain, and the best edges, if they beat the faces, need no projection
+//! normalise all nine edge pairs          those that cannot matter are ignored
+//! settled if                             they overlap for certain, and the best edges, if they beat the faces,
+//!                                        need no projection
 //! ```
-//! Nine roots and quotients where one pair by itself has none or few: side by side they cost less than a branch that is
-//! guessed wrong.
+//! That is nine roots and quotients where a single pair needs none or few: side by side they cost less than a
+//! mispredicted branch.
 
 use super::fifteen::{Fifteen, closed_form};
 use super::settled::{Best, Edges, Face, SLACK};
 use crate::precision::Precision;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
 
-/// What was found, all of it numbers.
+/// The best axes, as numbers only.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Graded {
-    /// 1 where the rest holds; 0 where the pair must be asked by itself.
+    /// Is 1 if the other fields are valid, 0 if the pair must be answered by itself.
     pub(super) is_settled: f64,
     /// The best face of each cuboid: its axis.
     pub(super) face_a: f64,
     pub(super) face_b: f64,
-    /// The edge pair that is better than both, or -1.
+    /// The edge pair that is better than both faces, or -1.
     pub(super) pair: f64,
     /// Its separation.
     pub(super) edges: f64,
@@ -31,7 +32,8 @@ pub(super) struct Graded {
 }
 
 impl Graded {
-    /// As [`Placed::settle`](super::placed::Placed::settle) has it. `faces` are the separations of the best faces.
+    /// The best axes as [`Placed::settle`](super::placed::Placed::settle) returns them. `faces` are the best faces'
+    /// separations.
     #[inline(always)]
     pub(super) fn best(&self, faces: [f64; 2]) -> Option<Best> {
         let pair = self.pair as i32;
@@ -49,7 +51,7 @@ fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The greatest of three and its place, the first of equals.
+/// The greatest of three and its index; of equals, the first.
 #[inline(always)]
 fn first_greatest([x, y, z]: [f64; 3]) -> (f64, f64) {
     let (one, place) = if y > x { (y, 1.0) } else { (x, 0.0) };
@@ -57,7 +59,7 @@ fn first_greatest([x, y, z]: [f64; 3]) -> (f64, f64) {
 }
 
 impl Fifteen {
-    /// Grades the axes of a pair that none of them parts.
+    /// Finds the best axes of a pair that none of them separates.
     #[inline(always)]
     pub(super) fn graded(&self, precision: &Precision) -> Graded {
         let (rounding, doubt) = (precision.projection(), closed_form(precision));
@@ -84,7 +86,7 @@ impl Fifteen {
             separation = if is_better { found } else { separation };
             pair = if is_better { n as f64 } else { pair };
             lost = if is_better { may_lose } else { lost };
-            // As `Placed::look_at_edges` has it.
+            // As in `Placed::look_at_edges`.
             let by_axis = (scaled + 2.0 * doubt) * inverse - face;
             let by_angle = 5.0 * (length * precision.reach + rounding);
             let left = if by_axis < by_angle { by_axis } else { by_angle };

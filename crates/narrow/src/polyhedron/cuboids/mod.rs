@@ -1,17 +1,17 @@
-//! Fifteen axes for two cuboids.
+//! The separating axis test for two cuboids: fifteen axes.
 //!
 //! ```text
 //! R = B's axes seen from A, t = B's centre seen from A, h, k = half extents
 //! separation along n = |n.t| - sum of h_i |n.e_i| - sum of k_j |n.R_j|
 //! for n in the 3 axes of A, the 3 of B, and their 9 cross products
 //! ```
-//! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A projection radius in closed form takes the place of the
-//! eight vertices; everything else is as in the general test, the axis of nearly parallel edges included.
+//! Gottschalk, Lin and Manocha, "OBBTree" (SIGGRAPH 1996). A closed-form projection radius replaces the eight vertices;
+//! everything else is as in the general test, including how axes of nearly parallel edges are treated.
 //!
-//! This is the definition, one axis after the other: [`Cuboids`], which asks parts of compounds, and what is left open
-//! below. Two bodies that are cuboids go a faster way to the same answers ([`placed::Posed`]): `fifteen` has all axes
-//! at once; `settled` makes the best of them of it for one pair, `graded` for eight side by side (`eight`), without a
-//! branch.
+//! [`Cuboids`] is the plain definition, one axis after the other. It answers for parts of compounds, and where the
+//! kernels below leave a pair open. Two bodies that are cuboids take a faster path to the same answers
+//! ([`placed::Posed`]): `fifteen` computes all axes at once; `settled` picks the best of them for one pair, `graded`
+//! for eight side by side (`eight`), without a branch.
 
 pub(crate) mod asked;
 pub(crate) mod ball;
@@ -47,18 +47,18 @@ pub(crate) struct Cuboids {
     pub(crate) offset: DVec3,
 }
 
-/// Which side of touching all axes put two cuboids on.
+/// Which side of touching the axes show two cuboids to be on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sides {
-    /// One axis parts them for certain.
+    /// One axis separates them for certain.
     Apart,
-    /// Every axis shows more overlap than it may be off by.
+    /// Every axis shows more overlap than its error bound.
     Overlapping,
     /// Some axis is too close to call.
     Unclear,
 }
 
-/// One axis that parts the cuboids by more than the limit, or the best of each kind.
+/// One axis that separates the cuboids by more than the limit, or the best axis of each kind.
 pub(crate) enum Outcome {
     Beyond(Axis),
     Within(Axes),
@@ -76,25 +76,25 @@ impl Cuboids {
         axis.dot(self.offset).abs() - radius_a - radius_b
     }
 
-    /// The cross product of edges along two axes; where they are nearly parallel, with the square of the sine between
-    /// them, and no axis to go by.
+    /// The cross product of edges along two axes. `Err` if they are nearly parallel: with the squared sine of their
+    /// angle, and not to be used as an axis.
     fn cross(&self, i: usize, j: usize) -> Result<DVec3, (DVec3, f64)> {
         let cross = DVec3::AXES[i].cross(self.axis_b(j));
         let squared_sine = cross.length_squared();
         if squared_sine > PARALLEL_EDGES * PARALLEL_EDGES { Ok(cross) } else { Err((cross, squared_sine)) }
     }
 
-    /// Whether no axis parts them. No axis is normalised.
+    /// Whether no axis separates them. No axis is normalised.
     pub(crate) fn overlaps(&self) -> bool {
         (0..3).all(|i| self.along(DVec3::AXES[i]) <= 0.0)
             && (0..3).all(|j| self.along(self.axis_b(j)) <= 0.0)
             && (0..9).all(|k| self.cross(k / 3, k % 3).map_or(true, |cross| self.along(cross) <= 0.0))
     }
 
-    /// Which side of touching the axes put them on.
+    /// Which side of touching the axes show them to be on.
     ///
-    /// No axis is longer than 1, so that what is lost to rounding is no more than along a unit axis: in place of a
-    /// length and a quotient for each axis, one comparison.
+    /// No axis is longer than 1, so that its rounding error is no more than along a unit axis: one comparison replaces
+    /// a length and a quotient for each axis.
     pub(crate) fn sides(&self, precision: &Precision) -> Sides {
         let rounding = precision.projection();
         let (mut top, mut left_out) = (f64::NEG_INFINITY, 0.0_f64);
@@ -109,12 +109,12 @@ impl Cuboids {
                 break;
             }
             match self.cross(i, j) {
-                // Of unit vectors: the rounding of the axis over the sine, times its length, which is the sine.
+                // Of unit vectors: the axis' rounding over the sine, times its length, which is that sine.
                 Ok(cross) => are_apart = parts(cross),
                 Err((_, squared_sine)) => left_out = left_out.max(precision.of_parallel_edges(squared_sine)),
             }
         }
-        // An axis' own rounding, and by how much it may lie beside its place.
+        // The rounding of an axis, and by how much the axis may be off its place.
         let ceiling = top + rounding + precision.of_face() + left_out;
         match are_apart {
             true => Sides::Apart,
@@ -123,7 +123,7 @@ impl Cuboids {
         }
     }
 
-    /// All fifteen axes, until one parts the cuboids by more than `limit`.
+    /// Tests all fifteen axes, until one separates the cuboids by more than `limit`.
     pub(crate) fn separating_axes(&self, a: &Solid, b: &Solid, limit: f64, precision: &Precision) -> Outcome {
         let mut axes = Axes::NONE;
         for i in 0..3 {
@@ -160,7 +160,7 @@ impl Cuboids {
                 break;
             }
         }
-        // Which of the four edges along an axis it is, is only looked up for the winner.
+        // Which of the four edges along an axis it is, is only looked up for the best pair.
         let (separation, normal, i, j) = best;
         if separation > f64::NEG_INFINITY {
             axes.offer(self.edge_axis(a, b, (i, j), separation, normal));
@@ -168,7 +168,7 @@ impl Cuboids {
         if axes.edges.separation > limit { Outcome::Beyond(axes.edges) } else { Outcome::Within(axes) }
     }
 
-    /// An axis turned to point from A to B. At equal centres either sense is right; this keeps the given one.
+    /// An axis flipped to point from A to B. At equal centres either sense is right; this keeps the given one.
     fn towards_b(&self, axis: DVec3) -> DVec3 {
         if axis.dot(self.offset) < 0.0 { -axis } else { axis }
     }
@@ -181,7 +181,7 @@ impl Cuboids {
 
     fn face_axis_b(&self, j: usize) -> Axis {
         let normal = self.towards_b(self.axis_b(j));
-        // B's face looks back at A.
+        // The face of B that faces A.
         let face = 2 * j + usize::from(normal.dot(self.axis_b(j)) < 0.0);
         Axis { separation: self.along(normal), normal, of: AxisOf::FaceB(face) }
     }

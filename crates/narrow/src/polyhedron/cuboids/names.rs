@@ -1,17 +1,17 @@
-//! Corners, edges and faces of a cuboid by index, without a look at its topology.
+//! Corners, edges and faces of a cuboid by index, without its topology.
 //!
 //! ```text
 //! corner c       positive on axis i where bit i of c is set
-//! face 2 i + s   looks along axis i, outwards where s is 1; its corners, counter-clockwise from outside:
+//! face 2 i + s   faces along axis i, outwards where s is 1; its corners, counter-clockwise from outside:
 //!                (-,-) (+,-) (+,+) (-,+)    on the axes i+1, i+2 where s is 1, on i+2, i+1 where it is 0
 //! half-edge      4 face + k, from corner k of the face
 //! ```
-//! A name is a feature in seven bits: two for its kind, five for its index. Names are in the order of the features they
-//! stand for, and two of them in one word in the order of feature ids.
+//! A name is a feature in seven bits: two for its kind, five for its index. Names sort like the features they stand
+//! for, and two names in one word sort like feature ids.
 
 use crate::feature::FeatureId;
 
-/// Corners of each face in order. The same as the cuboid's topology says, which a test compares.
+/// Corners of each face in order, as in the cuboid's topology (a test compares them).
 const LOOPS: [[u8; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
@@ -59,7 +59,7 @@ const fn to(half_edge: usize) -> u8 {
     LOOPS[half_edge / 4][(half_edge + 1) % 4]
 }
 
-/// Corner `k` of a face, in its order.
+/// Corner `k` of a face, in the face's order.
 #[inline]
 pub(super) fn corner(face: usize, k: usize) -> usize {
     LOOPS[face % 6][k % 4].into()

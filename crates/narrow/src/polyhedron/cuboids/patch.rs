@@ -1,19 +1,19 @@
-//! Contact points of two faces that look at each other.
+//! The common patch of two faces of cuboids, from which contact points are made.
 //!
 //! ```text
-//! in the reference face's own plane: its rectangle |u| <= U, |v| <= V; the other face a parallelogram f +- p +- q
-//! each of its four edges against both slabs: where it comes in, where it goes out
-//!     it starts within: its corner                      it comes in: a crossing
-//!     it goes out: a crossing
-//! each corner of the rectangle within the parallelogram
-//! what is no higher than wanted is kept; of more than four points, four
+//! in the reference face's plane: its rectangle |u| <= U, |v| <= V; the incident face a parallelogram f +- p +- q
+//! clip each of the incident face's four edges against both slabs: where does it enter, where does it leave
+//!     it starts within: its start is a corner           it enters: a crossing
+//!     it leaves: a crossing
+//! each corner of the rectangle within the parallelogram is a corner
+//! keep what is no higher than wanted; of more than four points, four
 //! ```
-//! Liang and Barsky, "A new concept and method for line clipping" (1984). Three times four slots, side by side,
-//! whatever the patch looks like, and one bit a slot that says whether a point is there: nothing branches on the
-//! patch's shape. Names are made for the points that are kept, and for no other.
+//! Liang and Barsky, "A new concept and method for line clipping" (1984). There are three times four slots, side by
+//! side, and one bit per slot that says whether it holds a point: nothing branches on the patch's shape. Names are made
+//! only for the points that are kept.
 //!
-//! Where a corner lies on the line of an edge, up to a slack, several features meet in one place, and which of them
-//! names it depends on the order in which sides are cut. That is left to the general clipper, whose names count.
+//! Where a corner lies on the line of an edge, up to a slack, several features meet in one place, and its name depends
+//! on the order in which sides are cut. That case is left to the general clipper, whose names are the definition.
 
 use super::super::manifold::near::{LiesOn, Rim};
 use super::names::{self, Name, Names};
@@ -21,50 +21,50 @@ use super::placed::Placed;
 use crate::lanes::Lanes;
 use asunder_geometry::glam::DVec3;
 
-/// Slots of a patch: the starts of the incident face's four edges within the rectangle, their ends, the four
-/// corners of the rectangle, and four that are never used, so that an index costs no division.
+/// Slots of a patch: where each of the incident face's four edges begins within the rectangle, where each ends, the
+/// four corners of the rectangle, and four unused, so that reducing an index needs no division.
 pub(super) const SLOTS: usize = 16;
 
-/// The patch that two faces share.
+/// The common patch of two faces.
 pub(super) struct Patch {
     pub(super) u: [f64; SLOTS],
     pub(super) v: [f64; SLOTS],
-    /// Over the reference face's plane, along the direction of measurement.
+    /// Height over the reference face's plane, along the direction of measurement.
     pub(super) height: [f64; SLOTS],
-    /// Half the sides of the reference face, and the corners of the other as they are seen, u and v.
+    /// Half the sides of the reference face, and the projected corners of the incident face, u and v.
     half: [f64; 2],
     around: [[f64; 4]; 2],
-    /// Which corners there are, clockwise around the patch, one bit each: see [`Patch::slot`].
+    /// Which corners exist, clockwise around the patch, one bit each: see [`Patch::slot`].
     pub(super) held: u32,
-    /// Whether all corners stand apart from each other and from every line.
+    /// Whether all corners keep clear of each other and of every edge's line.
     pub(super) is_clear: bool,
-    /// The same by what counts as near for names: then all are named after what they lie on.
+    /// The same at the distance that counts as near for names: then every corner is named after what it lies on.
     pub(super) is_apart: bool,
     pub(super) reference: Reference,
-    /// What happens to each edge, in bits: see [`Patch::names`].
+    /// How each edge is cut, in bits: see [`Patch::names`].
     cuts: [u8; 4],
-    /// For each edge, the corner of the reference face that follows where it goes out.
+    /// For each edge, the corner of the reference face that follows the edge's exit.
     follows: [u8; 4],
 }
 
-/// Which faces make a patch.
+/// Which faces form a patch.
 #[derive(Clone, Copy)]
 pub(super) struct Reference {
     pub(super) is_b: bool,
-    /// The face that heights are measured from.
+    /// The face from which heights are measured.
     pub(super) face: usize,
-    /// The face of the other cuboid that looks at it.
+    /// The face of the other cuboid that faces it.
     pub(super) incident: usize,
 }
 
-/// Which patch of two faces is asked for.
+/// Which patch of two faces is wanted.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) reference: Reference,
     /// Corners no higher than this, in metres.
     pub(super) within: f64,
     pub(super) slack: f64,
-    /// How near a corner is named after what is there.
+    /// How near a corner must be to a feature to be named after it.
     pub(super) near: f64,
 }
 
@@ -77,10 +77,10 @@ pub(super) struct Faces {
     q: [f64; 3],
 }
 
-/// The axis that a face looks along, and the two in it, in the order in which its corners run counter-clockwise.
+/// The axis of a face's normal, and the two axes in it, in the order in which its corners run counter-clockwise.
 const AXES: [[usize; 3]; 6] = [[0, 2, 1], [0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1]];
 
-/// As [`AXES`] has it.
+/// From [`AXES`].
 #[inline(always)]
 pub(super) fn axes_of(face: usize) -> [usize; 3] {
     AXES[face % 6]
@@ -121,11 +121,11 @@ impl Placed {
         }
     }
 
-    /// A face and the one of the other cuboid that is most opposed to it, of those at its furthest corners. Nothing
-    /// where the incident cuboid is all within the slack.
+    /// A face, and the most opposed face of the other cuboid, of those at its furthest corners. `None` if the incident
+    /// cuboid is all within the slack.
     ///
-    /// Corners that an edge joins are as far as each other where the edge rises by no more than the slack: then its
-    /// axis' faces have only some of them.
+    /// If the edges along an axis rise by no more than the slack, both ends of such an edge count as furthest. Then
+    /// each face across that axis has only some of the furthest corners, and is passed over.
     #[inline(always)]
     pub(super) fn faces(&self, is_b: bool, face: usize, slack: f64) -> Option<(Reference, Faces)> {
         let other = self.incident(is_b);
@@ -162,7 +162,7 @@ impl Placed {
 
 /// The four edges of the incident face against a slab.
 struct Slab {
-    /// Shares of the edges at which they come in and go out again.
+    /// Shares of the edges at which they enter and leave.
     enter: Lanes<4>,
     leave: Lanes<4>,
     /// How far the edges' starts lie from its sides.
@@ -172,7 +172,7 @@ struct Slab {
 impl Slab {
     #[inline(always)]
     fn new(from: Lanes<4>, step: Lanes<4>, half: f64) -> Self {
-        // Opposite edges run alike.
+        // Opposite edges run in opposite directions.
         let (one, other) = (1.0 / step.0[0], 1.0 / step.0[1]);
         let inverse = Lanes([one, other, -one, -other]);
         let low = (Lanes::all(-half) - from) * inverse;
@@ -180,8 +180,8 @@ impl Slab {
         let off = (from.abs() - Lanes::all(half)).abs();
         let (mut enter, mut leave) = (low.least(high), low.greatest(high));
         if one.is_infinite() | other.is_infinite() {
-            // An edge that runs along a side, and on its very line, is within: nothing times no end is no number, and
-            // would have the other slab forgotten. So is one between both sides, whose shares have no end either way.
+            // An edge that runs exactly along the line of a side is within: 0 times infinity is NaN, and would make the
+            // other slab be ignored. So is an edge between both sides, which enters and leaves at infinity.
             for k in (0..4).filter(|&k| (low.0[k] + high.0[k]).is_nan()) {
                 (enter.0[k], leave.0[k]) = (f64::NEG_INFINITY, f64::INFINITY);
             }
@@ -191,7 +191,8 @@ impl Slab {
 }
 
 impl Faces {
-    /// The same as seen along a unit axis that leans: heights are along it, and what is higher lies further aside.
+    /// The same as projected along a unit axis that leans: heights are along it, and higher points are shifted
+    /// sideways.
     #[inline(always)]
     pub(super) fn leaning(self, reference: &Reference, normal: DVec3) -> Self {
         let [i, u, v] = axes_of(reference.face);
@@ -204,7 +205,7 @@ impl Faces {
         Self { half: self.half, center: seen(self.center), p: seen(self.p), q: seen(self.q) }
     }
 
-    /// The common patch. To be called through `super::wide`, which compiles it.
+    /// Computes the common patch. To be called through `super::wide`, which compiles it.
     #[inline(always)]
     pub(super) fn patch(&self, &Wanted { reference, within, slack, near: same }: &Wanted) -> Patch {
         let around = |c: usize| {
@@ -238,8 +239,8 @@ impl Faces {
             let exit = &mut exits[usize::from(side) % 4];
             *exit = if is_cut { 8 * k + 2 } else { *exit };
         }
-        // Clockwise, a corner follows where an edge goes out through the side that it begins, or another corner.
-        // Where no edge goes out there are four, or none.
+        // Clockwise, a corner of the reference face follows the edge that leaves through the side that begins at the
+        // corner, or it follows another corner. Where no edge leaves, all four are corners of the patch, or none.
         let is_uncut = exits[0].min(exits[1]).min(exits[2].min(exits[3])) == NONE;
         follows[0] = if is_uncut { 3 } else { follows[0] };
         for k in 0..4 {
@@ -271,8 +272,8 @@ impl Faces {
         }
     }
 
-    /// The corners of the reference face with the incident face's heights there; a positive number for each that is
-    /// within the incident face; and how far they lie from the nearest line of an edge, or less.
+    /// The corners of the reference face with the incident face's heights there; for each, a number that is positive if
+    /// it is within the incident face; and a lower bound on its distance from the nearest edge's line.
     #[inline(always)]
     fn corners(&self) -> ([Lanes<4>; 3], Lanes<4>, Lanes<4>) {
         let (f, p, q) = (self.center, self.p, self.q);
@@ -286,17 +287,17 @@ impl Faces {
         let heights = Lanes::all(f[2]) + (along_p * (p[2] * inverse) + along_q * (q[2] * inverse));
         let size = Lanes::all(area.abs());
         let (inside_p, inside_q) = (size - along_p.abs(), size - along_q.abs());
-        // By the lengths of the edges they are distances; sums of coordinates are no shorter.
+        // Divided by the edges' lengths these are distances; sums of coordinates are no shorter than lengths.
         let (by_p, by_q) = (1.0 / (q[0].abs() + q[1].abs()), 1.0 / (p[0].abs() + p[1].abs()));
         let off = (inside_p.abs() * by_p).least(inside_q.abs() * by_q);
         ([u, v, heights], inside_p.least(inside_q), off)
     }
 }
 
-/// The side of a face through which an edge comes in (first) or goes out, by bits 1 to 4 of its cut, as `Faces::patch`
-/// makes them: whether u decides where it comes in, and where it goes out; whether it runs up u, and v.
+/// The side of a face through which an edge enters (first) or leaves. The index is bits 1 to 4 of the edge's cut, as
+/// made by `Faces::patch`: whether u decides where it enters, and where it leaves; whether it runs up u, and v.
 ///
-/// Sides in order: -v, +u, +v, -u. An edge that runs up comes in at the lower side.
+/// Sides in order: -v, +u, +v, -u. An edge that runs up a coordinate enters at the lower side.
 const SIDES: [[u8; 16]; 2] = sides();
 
 const fn sides() -> [[u8; 16]; 2] {
@@ -321,17 +322,17 @@ const fn sides() -> [[u8; 16]; 2] {
     sides
 }
 
-/// How many slacks a corner keeps from every line of an edge where nothing but the corner names it. The clipper
-/// takes its slack by the sum of coordinates, which is up to a root of two of a distance; and what it joins is
-/// nearer than one.
+/// How many slacks a corner must keep from every edge's line to have an unambiguous name. The clipper measures its
+/// slack by a sum of coordinates, which is up to a root of two times a distance; and the corners it joins are nearer
+/// than one slack.
 const CLEAR: f64 = 1.5;
 
 /// No place in the order of corners.
 const NONE: usize = 32;
 
 impl Patch {
-    /// The slot of a bit of `held`: of eight for each edge, the first for its start, the next for its end, and
-    /// those after that for the corners of the reference face that follow it.
+    /// The slot of a bit of `held`. Each edge has eight bits: the first for its start, the next for its end, and then
+    /// those of the corners of the reference face that follow it.
     #[inline(always)]
     pub(super) fn slot(&self, place: u32) -> usize {
         let (k, turn) = (place as usize / 8 % 4, place as usize % 8);
@@ -339,7 +340,7 @@ impl Patch {
         if turn < 2 { 4 * turn + k } else { corner }
     }
 
-    /// What a slot's corner is named after by what is within so many metres: see `super::super::manifold::near`.
+    /// The name of a slot's corner by the features within `near` metres: see `super::super::manifold::near`.
     pub(super) fn names_near(&self, slot: usize, near: f64) -> Names {
         let [half_u, half_v] = self.half;
         let (us, vs) = ([-half_u, half_u, half_u, -half_u], [-half_v, -half_v, half_v, half_v]);
@@ -351,14 +352,14 @@ impl Patch {
         self.named(reference.near(at, of_reference, near), incident.near(at, of_incident, near))
     }
 
-    /// What a slot's corner is named after by what it lies on.
+    /// The name of a slot's corner by the features it lies on.
     #[inline(always)]
     pub(super) fn names(&self, slot: usize) -> Names {
         let [of_reference, of_incident] = self.lies_on(slot);
         self.named(of_reference, of_incident)
     }
 
-    /// What a slot's corner lies on, of the reference face and of the other.
+    /// The features of the reference face and of the other that a slot's corner lies on.
     #[inline(always)]
     fn lies_on(&self, slot: usize) -> [LiesOn; 2] {
         let (k, group) = (slot % 4, slot / 4);

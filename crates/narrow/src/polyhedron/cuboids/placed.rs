@@ -1,4 +1,4 @@
-//! Two cuboids in the frame of the first, with what may be lost to rounding there.
+//! Two cuboids in the frame of the first, with the rounding error bounds there.
 
 use super::fifteen::Fifteen;
 use crate::batch::beyond;
@@ -7,7 +7,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Cuboid, Pose3};
 
-/// Two cuboids as their bodies stand.
+/// Two cuboids with their poses.
 #[derive(Clone, Copy)]
 pub(crate) struct Posed<'a> {
     pub(crate) cuboids: [&'a Cuboid; 2],
@@ -21,18 +21,18 @@ pub(super) struct Placed {
     pub(super) half: [DVec3; 2],
     /// B's axes.
     pub(super) relative: Basis3,
-    /// The same, one after the other.
+    /// B's axes again, as a flat array.
     pub(super) turn: [f64; 9],
     /// B's centre.
     pub(super) offset: DVec3,
     /// A's axes in the world.
     pub(super) basis: Basis3,
     pub(super) precision: Precision,
-    /// Both radii, in metres.
+    /// The sum of both radii, in metres.
     pub(super) radii: f64,
-    /// How much another axis must beat a face of A by, in metres.
+    /// By how much another axis must beat a face of A to be preferred, in metres.
     pub(super) preference: f64,
-    /// Corners no further above the deepest are as deep as any where four of more are chosen, in metres.
+    /// Corners no further than this above the deepest count as equally deep when four of more are chosen, in metres.
     pub(super) even: f64,
     /// How near a point must be to a corner or an edge to be named after it, in metres.
     pub(super) near: f64,
@@ -58,7 +58,7 @@ impl Posed<'_> {
         self.between().length_squared() * (1.0 + 8.0 * f64::EPSILON) < reach * reach
     }
 
-    /// By how much the bounding spheres are further apart than this, in metres.
+    /// By how much the gap between the bounding spheres exceeds `reach`, in metres.
     #[inline]
     pub(crate) fn beyond(&self, reach: f64) -> f32 {
         beyond(self.gap_of_spheres(), reach)
@@ -78,10 +78,10 @@ impl Posed<'_> {
         self.poses[1].position() - self.poses[0].position()
     }
 
-    /// B as A sees it, and what the fifteen axes say.
+    /// B's placement relative to A, and the fifteen axes.
     ///
-    /// Out of line, and all of it written to memory here: that makes LLVM see rows, and no row is read back before
-    /// it has been written whole.
+    /// Not inlined, and written to memory as a whole here: so LLVM sees rows, and no row is read back before all of it
+    /// has been written.
     #[inline(never)]
     pub(super) fn placed(&self) -> Placed {
         let [a, b] = self.cuboids;
@@ -98,9 +98,9 @@ impl Posed<'_> {
 /// How large two cuboids are, in metres.
 #[derive(Clone, Copy)]
 pub(super) struct Size {
-    /// Both cores' bounding radii.
+    /// The sum of both cores' bounding radii.
     pub(super) cores: f64,
-    /// Both radii.
+    /// The sum of both radii.
     pub(super) radii: f64,
     /// The smaller bounding radius.
     smaller: f64,
@@ -119,7 +119,7 @@ impl Size {
         }
     }
 
-    /// The precision of a pair whose cores' sizes and radii have this sum.
+    /// The precision of a pair, given the sum of the cores' sizes, and the sum with the radii added.
     #[inline(always)]
     pub(super) fn precision(size: f64, sum: f64, offset: DVec3) -> Precision {
         let [x, y, z] = offset.to_array();

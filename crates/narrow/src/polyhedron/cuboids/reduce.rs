@@ -1,23 +1,23 @@
-//! Four of the corners of a patch: those that `super::super::reduce` picks, found side by side.
+//! Picks four of the corners of a patch: those that `super::super::reduce` picks, found side by side.
 //!
 //! ```text
-//! corners clockwise in eight places, the last one repeated
-//! 70 quadrilaterals: ten shapes (steps from corner to corner) times eight beginnings name each of them once or twice
+//! put the corners clockwise in eight places, the last one repeated
+//! 70 quadrilaterals: ten shapes (steps from corner to corner) times eight first corners cover each once or twice
 //! twice the area of each = the cross product of its diagonals
 //! ```
-//! All of them are looked at, since that takes no branch: the walk around the patch, which finds the same, takes six
-//! times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, and f32 does. Where the largest holds no
-//! corner as deep as any, and where another four is as large but for [`EVEN_AREA`], the walk decides: it tells such
-//! fours apart by the features of their corners, which stay while a body trembles.
+//! All of them are evaluated, since that takes no branch: the walk around the patch, which finds the same, takes six
+//! times as long (AMD EPYC, Zen 4, 2026-11-21). Areas are only compared, so f32 is enough. If the largest holds no
+//! corner that counts as deepest, or another is as large up to [`EVEN_AREA`], the walk decides: it breaks ties by the
+//! features of the corners, which stay the same while a body trembles.
 
 use super::super::reduce::{Spot, pick_four};
 use super::patch::{Patch, SLOTS};
 use asunder_geometry::tolerance::EVEN_AREA;
 
-/// The most corners that two rectangles' common patch has.
+/// The most corners that the common patch of two rectangles has.
 pub(super) const MOST: usize = 8;
 
-/// From the first corner to the third, to the second, and from there to the fourth.
+/// Steps from the first corner to the third, from the first to the second, and from the second to the fourth.
 const SHAPES: [[usize; 3]; 10] = [
     [4, 2, 4],
     [4, 1, 4],
@@ -31,14 +31,14 @@ const SHAPES: [[usize; 3]; 10] = [
     [2, 1, 2],
 ];
 
-/// Bits of an area that number it.
+/// The bits of an area that hold the quadrilateral's number.
 const NUMBER: u32 = 127;
 
-/// What the area of each is multiplied by, for five to eight corners: 1 for every four of them once, else 0, so that
-/// two as large are two fours.
+/// Factors for the area of each quadrilateral, for five to eight corners: 1 for each set of four corners once, else 0,
+/// so that two equal areas are of two different sets.
 const ANY: [Weights; 4] = [weights(5, false), weights(6, false), weights(7, false), weights(8, false)];
 
-/// The same where the first corner must be kept.
+/// The same if the first corner must be kept.
 const ROOTED: [Weights; 4] = [weights(5, true), weights(6, true), weights(7, true), weights(8, true)];
 
 /// By shape and beginning.
@@ -67,8 +67,8 @@ const fn corners(shape: usize, begin: usize) -> [usize; 4] {
     [begin % 8, (begin + second) % 8, (begin + third) % 8, (begin + second + fourth) % 8]
 }
 
-/// Slots of four of some corners of a patch, which are listed clockwise: more than four, and no more than eight. Those
-/// no higher than `even` are as deep as any.
+/// Slots of four corners of a patch, out of more than four and no more than eight, which are listed clockwise. Those no
+/// higher than `even` count as deepest.
 #[inline(always)]
 pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: f64) -> [usize; 4] {
     let is_deep = |slot: usize| patch.height[slot % SLOTS] <= even;
@@ -76,7 +76,7 @@ pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: 
     for i in 0..count {
         deep |= u32::from(is_deep(slots[i % MOST])) << i;
     }
-    // One corner that is deeper than all others must be kept, and comes first.
+    // A corner that is deeper than all others must be kept, and comes first.
     let is_alone = deep.count_ones() == 1;
     let first = if is_alone { deep.trailing_zeros() as usize } else { 0 };
     let mut around = [0; MOST];
@@ -93,11 +93,11 @@ pub(super) fn four_of(patch: &Patch, slots: &[usize; MOST], count: usize, even: 
     }
 }
 
-/// The largest quadrilateral by its weighted area; nothing where another is as large but for what counts as even.
+/// The quadrilateral with the largest weighted area; `None` if another is as large up to what counts as even.
 #[inline(always)]
 fn largest(patch: &Patch, around: &[usize; MOST], weights: &Weights) -> Option<[usize; 4]> {
     let mut places = [[0.0_f32; 12]; 2];
-    // From one of them, before anything is rounded: they may lie far out on a huge face.
+    // Relative to one of them, before anything is rounded: they may lie far out on a huge face.
     let first = around[0] % SLOTS;
     let [from_u, from_v] = [patch.u[first], patch.v[first]];
     for i in 0..12 {
@@ -117,7 +117,7 @@ fn largest(patch: &Patch, around: &[usize; MOST], weights: &Weights) -> Option<[
     (count_from(&areas, even) == 1).then(|| corners(number / 8, number % 8))
 }
 
-/// How many are at least so large.
+/// How many areas are at least this large.
 #[inline(always)]
 fn count_from(areas: &[[f32; 8]; 10], even: f32) -> u32 {
     let mut counts = [0_u32; 8];
@@ -134,10 +134,11 @@ fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
-/// By how many corners on they lead, less two; by coordinate; by corner, the first few again at the end.
+/// Indexed by the number of corners they lead on, less two; by coordinate; by corner, with the first few again at the
+/// end.
 type Diagonals = [[[f32; 12]; 2]; 3];
 
-/// From memory to memory, here and below: that makes LLVM see eight lanes. In registers all the way it comes out
+/// From memory to memory, here and below, so that LLVM sees eight lanes. Kept in registers throughout, it comes out
 /// scalar.
 #[inline(never)]
 fn fill_diagonals(places: &[[f32; 12]; 2], diagonals: &mut Diagonals) {
@@ -174,7 +175,7 @@ fn fill_area<const SHAPE: usize>(diagonals: &Diagonals, weights: &Weights, areas
     let ([one_u, one_v], [other_u, other_v]) = (&diagonals[third - 2], &diagonals[fourth - 2]);
     for i in 0..8 {
         let area = one_v[i] * other_u[i + second] - one_u[i] * other_v[i + second];
-        // Numbered in its lowest bits: the greatest float says which it is.
+        // Numbered in the lowest bits, so that the greatest float tells which quadrilateral it is.
         let numbered = (area * weights[SHAPE][i]).to_bits() & !NUMBER | (8 * SHAPE + i) as u32;
         areas[SHAPE][i] = f32::from_bits(numbered);
     }
@@ -190,7 +191,7 @@ fn fill_best(areas: &[[f32; 8]; 10], best: &mut [f32; 8]) {
     }
 }
 
-/// As everywhere.
+/// The walk that all other shapes use.
 #[cold]
 #[inline(never)]
 fn walk(patch: &Patch, slots: &[usize], even: f64) -> [usize; 4] {

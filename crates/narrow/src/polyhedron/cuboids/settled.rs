@@ -1,13 +1,13 @@
-//! From fifteen separations to the best axis, and how much better the truth may be.
+//! From fifteen separations to the best axis, and a bound on how much better the truth may be.
 //!
 //! ```text
-//! D = 1.5 P bounds the error of a separation times the length of its axis, in closed form  (docs/accuracy.md, 2)
-//! the best face is a lower bound b; an edge pair whose S + D <= (b + slack) length cannot matter, whatever its angle
+//! S = separation times the length of its axis, in closed form; D = 1.5 P bounds its error    (docs/accuracy.md, 2)
+//! the best face is a lower bound b; an edge pair with S + D <= (b + slack) length cannot matter, whatever its angle
 //! the others are normalised; the best of them counts if it beats the face
 //! ```
-//! `slack` is next to nothing beside the rounding of the answer to f32. Without it the four pairs of edges around two
-//! faces that lie flat on each other, whose axes are that of the faces, would all be looked at; and a pair whose D over
-//! its length is less needs no projection beyond its closed form.
+//! `slack` is negligible beside the rounding of the answer to f32. Without it, the four edge pairs around two faces
+//! that lie flat on each other, whose axes equal the faces', would all be examined. Also, a pair with D / length below
+//! it needs no projection beyond its closed form.
 
 use super::super::sat::{Axis, AxisOf};
 use super::super::solid::corner_along;
@@ -20,30 +20,30 @@ use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::PARALLEL_EDGES;
 
-/// Share of a separation by which edges may beat it unseen: a sixteenth of half an ulp of f32.
+/// Share of a separation by which edges may beat it unnoticed: a sixteenth of half an ulp of f32.
 pub(super) const SLACK: f64 = f32::EPSILON as f64 / 32.0;
 
-/// What the fifteen axes say of two cores.
+/// What the fifteen axes show about two cores.
 pub(super) enum Settled {
-    /// This axis parts them by more than the limit.
+    /// This axis separates the shapes by more than the limit.
     Beyond(Axis),
     /// They overlap for certain.
     Overlapping(Best),
-    /// A face parts the cores of sharp cuboids for certain, but not by more than the limit, and edges were not looked
-    /// at; or no face does, and edges do.
+    /// A face separates the cores of sharp cuboids for certain, but not by more than the limit; edges were not
+    /// examined. Or no face does, but edges do.
     Parted(Best),
     /// Neither is certain.
     Unclear,
 }
 
-/// The best axes of two cores; in a gap that a face shows, faces alone.
+/// The best axes of two cores; where a face shows a gap, those of faces only.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Best {
     pub(super) face_a: Face,
     pub(super) face_b: Face,
-    /// Where they are better than both faces.
+    /// The best edge pair, if it is better than both faces.
     pub(super) edges: Option<Edges>,
-    /// By how much the truth may exceed the best of them, or fall short of it.
+    /// By how much the true separation may be above or below that of the best axis.
     pub(super) short: f64,
 }
 
@@ -72,7 +72,7 @@ impl Face {
 }
 
 impl Best {
-    /// Ties: a face of A, then a face of B, then edges.
+    /// The separation of the best axis. Ties: a face of A, then a face of B, then edges.
     #[inline(always)]
     pub(super) fn separation(&self) -> f64 {
         self.edges.map_or(self.of_faces(), |edges| edges.separation)
@@ -97,7 +97,7 @@ impl Best {
         }
     }
 
-    /// What the best axis is the axis of.
+    /// The feature of the best axis.
     #[inline(always)]
     pub(super) fn axis_of(&self, placed: &Placed) -> AxisOf {
         match self.edges {
@@ -109,20 +109,21 @@ impl Best {
 }
 
 impl Placed {
-    /// What closed forms are off by at most, times the axis' length.
+    /// Error bound of the closed forms, times the axis' length.
     #[inline(always)]
     pub(super) fn closed_form(&self) -> f64 {
         closed_form(&self.precision)
     }
 
-    /// What parts the shapes by more than `limit` metres for certain. Of edges, which of them does not matter.
+    /// The axis that separates the shapes by more than `limit` metres for certain. Of edge pairs, any edges along the
+    /// two axes.
     #[inline(always)]
     pub(super) fn parted(&self, limit: f64) -> Option<AxisOf> {
         let by = self.fifteen.parted(limit + self.radii, &self.precision);
         parted_by(by, |axis| self.offset[axis] >= 0.0, |axis| self.fifteen.ahead.0[axis] >= 0.0)
     }
 
-    /// By how much more than `limit` metres a face parts the shapes, where one does.
+    /// By how much more than `limit` metres a face separates the shapes; 0 for edges.
     #[inline(always)]
     pub(super) fn beyond(&self, of: AxisOf, limit: f64) -> f32 {
         let separation = match of {
@@ -139,7 +140,7 @@ impl Placed {
         self.fifteen.top() + self.closed_form() < 0.0
     }
 
-    /// Whether no axis parts the shapes by more than `limit` metres.
+    /// Whether an axis separates the shapes by more than `limit` metres, else the best axes.
     #[inline(always)]
     pub(super) fn settle(&self, limit: f64) -> Settled {
         let rounding = self.precision.projection();
@@ -173,10 +174,10 @@ impl Placed {
         Settled::Unclear
     }
 
-    /// The edge pairs that may have a separation greater than `bound`, one bit each.
+    /// The edge pairs whose separation may exceed `bound`, one bit each.
     #[inline(always)]
     fn edges_that_matter(&self, bound: f64) -> u32 {
-        // In a gap, squares tell nothing.
+        // For a gap, comparing squares proves nothing.
         if bound > 0.0 {
             return 0x1ff;
         }
@@ -193,7 +194,7 @@ impl Placed {
         matter
     }
 
-    /// Takes the best of some edge pairs if it beats the best face. Raises what the best axis may fall short by.
+    /// Takes the best of some edge pairs if it beats the best face. Raises `short` by what the pairs leave open.
     #[inline(never)]
     fn look_at_edges(&self, matter: u32, slack: f64, best: &mut Best) {
         let (doubt, face) = (self.closed_form(), best.of_faces());
@@ -205,8 +206,8 @@ impl Placed {
             let (scaled, squared) = self.fifteen.edge_pair(next);
             let inverse = 1.0 / squared.sqrt();
             if squared <= PARALLEL_EDGES * PARALLEL_EDGES {
-                // As `Axes::leave_out` has it. Of no length at all the second is no number, or endless, and the
-                // first counts.
+                // As in `Axes::leave_out`. If the axis has no length at all, `by_axis` is NaN or infinite, and the
+                // other one counts.
                 let by_axis = (scaled + 2.0 * doubt) * inverse - face;
                 left_out = left_out.max(self.precision.of_parallel_edges(squared).min(by_axis));
                 continue;
@@ -217,7 +218,7 @@ impl Placed {
                 (separation, pair, lost) = (found, next, may_lose);
             }
         }
-        // Not by a hair: where the faces lie flat on each other, their edges show the same up to rounding.
+        // By more than rounding: where the faces lie flat on each other, their edges show the same up to that.
         let mut found = face;
         if separation > face + doubt {
             if lost > slack {
@@ -236,7 +237,7 @@ impl Placed {
         face_of_a(axis, self.offset[axis] >= 0.0)
     }
 
-    /// B's face looks back at A.
+    /// The face of B that faces A along an axis.
     #[inline(always)]
     pub(super) fn of_face_b(&self, axis: usize) -> AxisOf {
         face_of_b(axis, self.fifteen.ahead.0[axis] >= 0.0)
@@ -272,7 +273,7 @@ impl Placed {
         AxisOf::Edges(edge_a, edge_b)
     }
 
-    /// Turned to point from A to B. At equal centres either sense is right.
+    /// The unit axis of an edge pair, from A to B. At equal centres either sense is right.
     #[inline]
     pub(super) fn edge_normal(&self, pair: usize) -> DVec3 {
         edge_normal(pair, self.axis_b(pair % 3), self.offset)
@@ -286,8 +287,8 @@ fn edge_normal(pair: usize, axis_b: DVec3, offset: DVec3) -> DVec3 {
 }
 
 impl Best {
-    /// The best axis in the world, by A's axes, one of B's as A sees them, B's centre, and how far that lies along
-    /// B's own.
+    /// The best axis in the world. Given are A's axes in the world, one of B's axes and B's centre as seen from A, and
+    /// B's centre along B's axes.
     #[inline(always)]
     pub(super) fn normal(
         &self,
@@ -319,7 +320,8 @@ fn face_of_b(axis: usize, is_ahead: bool) -> AxisOf {
     AxisOf::FaceB(2 * axis + usize::from(!is_ahead))
 }
 
-/// What [`Fifteen::parted`](super::fifteen::Fifteen::parted) found, by whether B lies ahead on an axis of A or of B.
+/// The axis that [`Fifteen::parted`](super::fifteen::Fifteen::parted) numbered, by whether B lies ahead on an axis of A
+/// or of B.
 #[inline(always)]
 pub(super) fn parted_by(
     by: f64,

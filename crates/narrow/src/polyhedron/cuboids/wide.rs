@@ -1,9 +1,9 @@
-//! Boxes with registers as wide as the processor has.
+//! Box kernels compiled for registers as wide as the processor has.
 //!
-//! The one place of this crate where functions are compiled for more than the target promises. They are the same
-//! functions, of plain arithmetic without fused operations, so that their bits are the same. What it buys eight pairs
-//! stands in `super::eight`. The patch of two faces, and the points that are made of it, make a frame of boxes that
-//! fall 1.04 times as fast (AMD EPYC, Zen 5, 2026-11-24).
+//! The only place in this crate where functions are compiled for more than the target guarantees. They are the same
+//! functions, of plain arithmetic without fused operations, so that their results are the same bit by bit. The gains
+//! for eight pairs are listed in `super::eight`. The patch of two faces, and the contact points made from it, make a
+//! frame of boxes that fall 1.04 times as fast (AMD EPYC, Zen 5, 2026-11-24).
 #![allow(unsafe_code, reason = "the compiler cannot know what a processor was asked at run time")]
 
 use super::contact::Touching;
@@ -12,14 +12,14 @@ use super::patch::{Faces, Patch, Wanted};
 use crate::answer::Manifold3;
 use asunder_geometry::glam::DVec3;
 
-/// What is worth compiling twice.
+/// Work that is worth compiling more than once.
 trait Kernel {
     type Output;
-    /// Does the work. To be inlined always, or it is compiled once only.
+    /// Does the work. Must always be inlined, or it is compiled only once.
     fn run(self) -> Self::Output;
 }
 
-/// Runs a kernel as wide as the processor can; with the feature `portable`, by the twin.
+/// Runs a kernel with the widest registers the processor has; with the feature `portable`, by the portable twin.
 #[inline(always)]
 fn widest<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -30,8 +30,8 @@ fn widest<K: Kernel>(kernel: K) -> K::Output {
     anywhere(kernel)
 }
 
-/// The same of a kernel whose rows are as long as the widest registers that there are: others gain nothing by those,
-/// and contact points lose 3 %.
+/// The same for a kernel whose rows fill the widest registers that exist: other kernels gain nothing from those, and
+/// contact points lose 3 %.
 #[inline(always)]
 fn widest_of_rows<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -98,7 +98,7 @@ impl Kernel for Cut<'_> {
     }
 }
 
-/// What two faces share: see [`Faces::patch`].
+/// The common patch of two faces: see [`Faces::patch`].
 #[inline(always)]
 pub(super) fn patch(faces: &Faces, wanted: &Wanted) -> Patch {
     widest(Cut(faces, wanted))
@@ -115,7 +115,7 @@ impl Kernel for Fill<'_, '_> {
     }
 }
 
-/// Contacts of a patch, along an axis that leans or along the face's own: see [`Touching::fill_along`].
+/// Contact points of a patch, along a leaning axis or the face's normal: see [`Touching::fill_along`].
 #[inline(always)]
 pub(super) fn fill(
     touching: &Touching,
