@@ -7,25 +7,25 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Compound2, Pose2, Shape2};
 use core::ops::ControlFlow;
 
-/// A convex part of a body, as the body stands.
+/// A convex part of a body, in the body's current pose.
 #[derive(Clone, Copy)]
 pub(super) struct Part<'a> {
     pub(super) index: u32,
     pub(super) shape: &'a Shape2,
-    /// Where it is in its compound; a shape that is none is its own only part.
+    /// Its pose in its compound; `None` for a whole shape, which is its own only part.
     pub(super) local: Option<&'a Pose2>,
     /// Its bounding circle's centre less the body's position, in world axes.
     pub(super) center: DVec2,
 }
 
 impl<'a> Part<'a> {
-    /// A shape as a part of nothing: a compound by its bounding circle alone.
+    /// A whole shape as its own only part; of a compound, only the bounding circle is of use.
     pub(super) fn whole(shape: &'a Shape2, turn: &Turn) -> Self {
         let center = turn.turn(shape.center().as_dvec2());
         Self { index: 0, shape, local: None, center }
     }
 
-    /// Shape and poses as they were given, for exact questions.
+    /// Shape and poses as they were given, for exact tests.
     pub(super) fn site(&self, body: &Pose2) -> Site2<'a> {
         Site2 { shape: self.shape, body: *body, part: self.local }
     }
@@ -36,20 +36,20 @@ impl<'a> Part<'a> {
         (body.of_part(pose.rotation()), body.turn(pose.position()))
     }
 
-    /// The part of a shape whose box is nearest to a point, in metres and world axes from the body's position.
+    /// The part of a shape whose box is nearest to a point, which is in metres and world axes from the body's position.
     pub(super) fn nearest(shape: &'a Shape2, turn: &Turn, point: DVec2) -> Self {
         let Shape2::Compound(compound) = shape else { return Self::whole(shape, turn) };
         let point = turn.turn_back(point).as_vec2();
         let mut nearest = 0;
         compound.visit_nearest(&Aabb2::new(point, point), f64::INFINITY, |part| {
             nearest = part;
-            // That is enough.
+            // A negative limit ends the search.
             -1.0
         });
         Self::of(compound, nearest, turn)
     }
 
-    /// A part of a compound, by its number.
+    /// A part of a compound, by its index.
     fn of(compound: &'a Compound2, index: u32, turn: &Turn) -> Self {
         let part = &compound.parts()[index as usize];
         Self { index, shape: part.shape(), local: Some(part.pose()), center: turn.turn(part.center()) }
@@ -64,8 +64,8 @@ pub(super) fn for_parts<'a>(shape: &'a Shape2, turn: &Turn, mut visit: impl FnMu
     (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, turn)))
 }
 
-/// As [`for_parts`], in the same order, but for parts of a compound of many that are certainly not in a region, as the
-/// body's position sees it in world axes.
+/// Like [`for_parts`], in the same order, but of a compound of many parts leaves out those that are certainly outside a
+/// region. The region is in world axes, relative to the body's position.
 pub(super) fn for_parts_in<'a>(
     shape: &'a Shape2,
     turn: &Turn,
@@ -83,7 +83,7 @@ pub(super) fn for_parts_in<'a>(
     in_order(walk, |index| visit(Part::of(compound, index, turn)))
 }
 
-/// The same in any order: the first that is found may be enough.
+/// The same in any order, for searches where the first that is found may be enough.
 pub(super) fn for_parts_near<'a>(
     shape: &'a Shape2,
     turn: &Turn,
@@ -99,8 +99,8 @@ pub(super) fn for_parts_near<'a>(
     compound.visit_near(&bounds, is_enough).is_break()
 }
 
-/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up
-/// to a limit in metres that the visitor may lower: it returns the new one.
+/// Visits parts roughly in the order of their distance from a region, up to a limit in metres, which the visitor may
+/// lower: it returns the new one. The region is in world axes, relative to the body's position.
 pub(super) fn for_nearest_parts<'a>(
     compound: &'a Compound2,
     turn: &Turn,
@@ -109,13 +109,13 @@ pub(super) fn for_nearest_parts<'a>(
     mut visit: impl FnMut(Part<'a>) -> f64,
 ) {
     let bounds = region.turned_back(turn).bounds(compound);
-    // A stored rotation stretches distances, too.
+    // A stored rotation stretches distances, too, by its length.
     let wide = |limit: f64| limit * (1.0 + 4.0 * f64::from(f32::EPSILON));
     compound.visit_nearest(&bounds, wide(limit), |index| wide(visit(Part::of(compound, index, turn))));
 }
 
 impl Region2 {
-    /// The same in the body's own axes.
+    /// The same region in the body's axes.
     fn turned_back(self, turn: &Turn) -> Self {
         Self { center: turn.turn_back(self.center), ..self }
     }

@@ -1,7 +1,7 @@
-//! A sphere and a cuboid that are parts of nothing: answered at once, in the cuboid's axes.
+//! A sphere and a cuboid that are not parts of a compound: in closed form, in the cuboid's axes.
 //!
 //! Separation, error and normal are those of the general path to the last bit, and points up to rounding. That path
-//! carries more along: the distance takes some 340 ns there and 45 here (AMD EPYC, Zen 4, 2026-11-21).
+//! does more work: the distance takes some 340 ns there and 45 here (AMD EPYC, Zen 4, 2026-11-21).
 
 use super::balls::Told;
 use super::{Pair3, Part, reach_of};
@@ -16,7 +16,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Cuboid, Pose3, Shape3};
 
-/// A sphere and a cuboid, as they stand.
+/// A sphere and a cuboid, with their poses.
 pub(super) struct Ball<'p> {
     pair: &'p Pair3<'p>,
     cuboid: &'p Cuboid,
@@ -26,14 +26,14 @@ pub(super) struct Ball<'p> {
     is_b: bool,
 }
 
-/// The sphere's centre as the cuboid sees it.
+/// The sphere's centre in the cuboid's axes.
 pub(super) struct Seen<'p> {
     ball: &'p Ball<'p>,
     /// The cuboid's axes in the world.
     basis: Basis3,
     nearest: Nearest,
     precision: Precision,
-    /// That of the shapes.
+    /// The separation of the shapes, where `nearest` is about their cores.
     separation: f64,
 }
 
@@ -50,7 +50,7 @@ impl<'a> Pair3<'a> {
 }
 
 impl Ball<'_> {
-    /// Of both bounding spheres, in metres.
+    /// The sum of both bounding radii, in metres.
     #[inline]
     fn outer_radii(&self) -> f64 {
         f64::from(self.cuboid.outer_radius()) + f64::from(self.radius)
@@ -85,7 +85,7 @@ impl Ball<'_> {
         Seen { ball: self, basis, nearest, precision, separation: nearest.separation - radii }
     }
 
-    /// The cuboid's pose, and the sphere's centre from there.
+    /// The cuboid's pose, and the sphere's centre relative to its position.
     #[inline]
     fn place(&self) -> (&Pose3, DVec3) {
         let pair = self.pair;
@@ -103,7 +103,7 @@ impl Ball<'_> {
         self.seen().verdict()
     }
 
-    /// Whether they overlap, if they are within the margin; the manifold goes where it is wanted.
+    /// Whether they overlap, if they are within the margin. The manifold is written if one is wanted.
     #[inline]
     pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
         if self.is_far(reach_of(margin)) {
@@ -154,7 +154,7 @@ impl Told for Seen<'_> {
         if self.ball.is_b { [on_sphere, on_cuboid] } else { [on_cuboid, on_sphere] }
     }
 
-    /// From the cuboid, in either order.
+    /// Points are measured from the cuboid, in either order.
     #[inline]
     fn is_from_b(&self) -> bool {
         self.ball.is_b

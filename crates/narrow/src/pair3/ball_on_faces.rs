@@ -1,5 +1,5 @@
-//! A sphere over a face, an edge or a corner of a triangle or a hull, both parts of nothing: what is told of them, in
-//! the axes of the shape with faces.
+//! A sphere over a face, an edge or a corner of a triangle or a hull, neither a part of a compound: the answers in
+//! closed form, in the axes of the shape with faces.
 
 use super::Pair3;
 use super::balls::Told;
@@ -9,36 +9,37 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_PLACE;
 use asunder_geometry::{Basis3, Shape3};
 
-/// A sphere and a triangle or a hull, as they stand.
+/// A sphere and a triangle or a hull, with their poses.
 pub(super) struct BallOnFaces<'p> {
     pub(super) pair: &'p Pair3<'p>,
-    /// That with faces.
+    /// The shape with faces.
     pub(super) shape: &'p Shape3,
     /// Its axes in the world.
     pub(super) basis: Basis3,
     pub(super) nearest: Nearest,
-    /// Of the sphere, in metres.
+    /// The sphere's radius, in metres.
     pub(super) radius: f64,
     /// Whether the shape with faces is B.
     pub(super) is_b: bool,
     pub(super) precision: Precision,
 }
 
-/// What of a core is nearest to a point, in the core's axes.
+/// The nearest place of a core to a point, in the core's axes.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) foot: DVec3,
-    /// Unit direction out of the core, towards the point where that is outside.
+    /// Unit direction out of the core; towards the point, if that is outside.
     pub(super) outwards: DVec3,
     pub(super) feature: Feature,
-    /// From the foot to the point, in metres; below zero inside of the core.
+    /// From the foot to the point, in metres; below zero inside the core.
     pub(super) distance: f64,
-    /// By how much that may be off because a face is not quite flat.
+    /// By how much the distance may be off because a face is not quite flat.
     pub(super) slack: f64,
 }
 
 impl BallOnFaces<'_> {
-    /// A place inside of a face is named after a corner or an edge that is near it, as in a patch of two faces.
+    /// The nearest feature. A place inside a face is named after a corner or an edge near it, as in a patch of two
+    /// faces.
     fn named(&self) -> Feature {
         let Feature::Face(face) = self.nearest.feature else { return self.nearest.feature };
         let smaller = self.radius.min(self.shape.outer_radius().into());

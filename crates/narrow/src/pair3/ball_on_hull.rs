@@ -1,19 +1,23 @@
-//! A sphere and a hull with faces that are parts of nothing: answered at once, in the hull's axes.
+//! A sphere and a hull with faces, neither a part of a compound: answered by a walk over the hull, in its axes.
 //!
 //! ```text
-//! f = the face that has the centre furthest in front of it, d = how far: below zero, and over f, the centre is inside, and d - radius
-//!     the separation; below zero and beside f it is beside a hull so thin that its sides were merged away, and others are asked
-//! from f, to what is nearer: over the side of a face that the centre is beyond the most, to that edge
-//!                            past the end of an edge, to that corner; over a face beside it, to that face
-//!                            along an edge that leads from a corner towards the centre, to that edge
-//! what it ends on is nearest where a projection on the way from there to the centre shows as much of all corners; else others are asked
-//! normal        that of the face, inside and over it; else along that way
-//! yes or no     the number's beyond twice the bound, else by integers
+//! f = the face with the centre furthest in front of it, d = how far
+//! d < 0, and over f:    the centre is inside, and d - radius is the separation
+//! d < 0, and beside f:  it is beside a hull so thin that its sides were merged away: left to the general path
+//! else walk from f to nearer features:
+//!     from a face, across the side that the centre is furthest beyond:   to that edge
+//!     from an edge, past its end:                                        to that vertex
+//!     from an edge, over a face beside it:                               to that face
+//!     from a vertex, along an edge that leads towards the centre:        to that edge
+//! proof         project all vertices on the direction from the walk's end to the centre: if that shows a gap as wide,
+//!               the end is nearest; else left to the general path
+//! normal        the face's, inside and over it; else that direction
+//! yes or no     by the number beyond twice its error bound, else by integers
 //! ```
-//! The walk is that of Mirtich, "V-Clip: fast and robust polyhedral collision detection" (1998), of a point, which has
-//! one feature. It proposes; the projection proves. The general path searches for closest points of both, and names the
-//! features of a patch: a manifold takes 1,640 ns there and 440 here with hulls of 16 (Intel Xeon, Ice Lake, 2 virtual
-//! cores, 2026-11-26).
+//! The walk is that of Mirtich, "V-Clip: fast and robust polyhedral collision detection" (1998), for a point, which has
+//! one feature. It proposes; the projection proves. The general path searches for closest points of both shapes, and
+//! names the features of a patch: a manifold takes 1,640 ns there and 440 here with hulls of 16 (Intel Xeon, Ice Lake,
+//! 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};
@@ -26,10 +30,10 @@ use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Hull, Shape3};
 
-/// Steps after which others are asked: most walks that are longer go round in circles.
+/// The most steps of a walk, after which the general path answers: most longer walks go round in circles.
 const MAX_STEPS: usize = 16;
 
-/// A sphere and a hull with faces, and the centre as the hull sees it.
+/// A sphere and a hull with faces, and the sphere's centre in the hull's axes.
 struct Seen<'p> {
     pair: &'p Pair3<'p>,
     beside: BesideBall<'p>,
@@ -41,7 +45,8 @@ struct Seen<'p> {
 }
 
 impl Pair3<'_> {
-    /// What is told of a sphere and a hull whose bounding spheres are within a limit.
+    /// The answers for a sphere and a hull; `None` if the walk proves nothing, or their bounding spheres are beyond a
+    /// limit.
     #[inline]
     pub(super) fn ball_on_hull(&self, limit: f64) -> Option<BallOnFaces<'_>> {
         let seen = self.ball_by_hull(limit)?;
@@ -55,7 +60,7 @@ impl Pair3<'_> {
         nearest.map(|nearest| seen.told(nearest))
     }
 
-    /// Whether a sphere and a hull overlap: without proof of what is nearest, where that is enough.
+    /// Whether a sphere and a hull overlap. The nearest feature is proved only where bounds do not suffice.
     #[inline]
     pub(super) fn verdict_on_hull(&self) -> Option<Verdict> {
         let seen = self.ball_by_hull(0.0)?;
@@ -64,7 +69,7 @@ impl Pair3<'_> {
         let by_bound = |overlapping| Some(Verdict { overlapping, tier: Tier::Bound });
         seen.with_walk(|walk| {
             let from_middle = (seen.center - seen.hull.center().as_dvec3()).length();
-            // Below zero where the middle is not in the core.
+            // The inner radius is below zero if the hull's centre is not in the core.
             if from_middle + doubt < radii + walk.solid.inner_radius() {
                 return by_bound(true);
             }
@@ -76,7 +81,7 @@ impl Pair3<'_> {
                 return inside.map(|nearest| seen.told(nearest).verdict());
             }
             let end = walk.from(foremost.0)?;
-            // What is somewhere on the hull is no nearer than what is nearest.
+            // Any point of the hull is at least as far away as the nearest one.
             if (walk.point - end.0).length() + doubt < radii {
                 return by_bound(true);
             }
@@ -115,7 +120,7 @@ impl<'p> Seen<'p> {
     }
 }
 
-/// Where the walk is: a face, a half-edge or a vertex, by its number.
+/// Where the walk is: the index of a face, a half-edge or a vertex.
 #[derive(Clone, Copy)]
 enum At {
     Face(usize),
@@ -126,14 +131,15 @@ enum At {
 /// A core in its own axes, and a point.
 struct Walk<'s> {
     solid: &'s Solid<'s>,
-    /// Of its faces.
+    /// Of the core's faces.
     normals: &'s [DVec3],
     heights: &'s [f64],
     point: DVec3,
 }
 
 impl Walk<'_> {
-    /// What is told of a point that no face of a hull with an inside has in front, which may be nothing.
+    /// The nearest place for a point behind all faces of a hull with volume, else `None`. `Some(None)` if the point is
+    /// not over its foremost face: left to the general path.
     fn inside(&self, (face, beyond): (usize, f64), seen: &Seen) -> Option<Option<Nearest>> {
         if seen.hull.dimension() < 3 || beyond > 0.0 {
             return None;
@@ -142,7 +148,7 @@ impl Walk<'_> {
         Some(is_over.then(|| self.over(face, beyond, 4.0 * seen.precision.planarity)))
     }
 
-    /// What is nearest, by the place and the feature where a walk ended; nothing where that is not proved.
+    /// The nearest place, from the point and feature where a walk ended; `None` if that is not proved.
     fn proved(
         &self,
         (foot, at): (DVec3, At),
@@ -151,7 +157,7 @@ impl Walk<'_> {
     ) -> Option<Nearest> {
         let feature = match at {
             At::Face(face) => {
-                // What is behind the face is over another: the walk went astray.
+                // A point behind the face is over another face: the walk went astray.
                 let height = self.height(face);
                 return (height >= -precision.projection())
                     .then(|| self.over(face, height, self.bulge(face)));
@@ -175,7 +181,7 @@ impl Walk<'_> {
         Nearest { foot: self.point - outwards * distance, outwards, feature, distance, slack }
     }
 
-    /// How far the corners of a face lie below what reaches furthest along its normal, at most.
+    /// How far the corners of a face may lie below the hull's furthest extent along the face's normal.
     fn bulge(&self, face: usize) -> f64 {
         let corners =
             self.solid.topology.face_vertices(face).map(|vertex| self.solid.vertices[vertex].as_dvec3());
@@ -183,7 +189,7 @@ impl Walk<'_> {
         (self.heights[face] - lowest).max(0.0)
     }
 
-    /// The walk from a face to what should be nearest, and the place on that.
+    /// Walks from a face to what should be the nearest feature; returns the nearest point on it, and the feature.
     fn from(&self, face: usize) -> Option<(DVec3, At)> {
         let mut at = At::Face(face);
         for _ in 0..MAX_STEPS {
@@ -211,7 +217,7 @@ impl Walk<'_> {
         self.normals[face].dot(self.point) - self.heights[face]
     }
 
-    /// The face that has the point furthest in front of it, and how far; of equals, the first.
+    /// The face that has the point furthest in front of it, and the distance; of equals, the first.
     #[inline]
     fn foremost(&self) -> Option<(usize, f64)> {
         let (mut face, mut most) = (usize::MAX, f64::NEG_INFINITY);
@@ -224,7 +230,7 @@ impl Walk<'_> {
         (face != usize::MAX).then_some((face, most))
     }
 
-    /// Where a half-edge starts, and the way from there.
+    /// The start of a half-edge, and the vector to its end.
     #[inline(always)]
     fn edge(&self, half_edge: usize) -> (DVec3, DVec3) {
         let (from, to) = self.solid.topology.ends(half_edge);
@@ -232,12 +238,12 @@ impl Walk<'_> {
         (from, to - from)
     }
 
-    /// The half-edge around a face that the point is beyond the most, if it is beyond any.
+    /// The half-edge around a face that the point is furthest beyond, if it is beyond any.
     fn side_beyond(&self, face: usize) -> Option<usize> {
         let (normal, mut most, mut side) = (self.normals[face], 0.0, None);
         for half_edge in self.solid.topology.face_half_edges(face) {
             let (from, along) = self.edge(half_edge);
-            // Not by lengths: their squares keep the order.
+            // Not divided by lengths: comparing signed squares gives the same order.
             let out = along.cross(normal).dot(self.point - from);
             let beyond = out * out.abs() / along.length_squared();
             if beyond > most {
@@ -247,7 +253,7 @@ impl Walk<'_> {
         side
     }
 
-    /// What is nearer than an edge, or the point's foot on that.
+    /// The neighbouring feature of an edge that is nearer; if none is, `Err` with the point's foot on the edge.
     fn beside_edge(&self, half_edge: usize) -> Result<At, DVec3> {
         let topology = self.solid.topology;
         let (from, along) = self.edge(half_edge);
@@ -272,7 +278,7 @@ impl Walk<'_> {
         Err(foot)
     }
 
-    /// The edge from a corner that leads the most towards the point, if any does.
+    /// The edge from a vertex that leads the most towards the point, if any does.
     fn edge_towards(&self, vertex: usize) -> Option<usize> {
         let away = self.point - self.solid.vertices[vertex].as_dvec3();
         let (mut most, mut edge) = (0.0, None);

@@ -1,12 +1,14 @@
-//! A sphere and a capsule, or a segment, that are parts of nothing: answered at once, in the world's axes.
+//! A sphere and a capsule or segment that are not parts of a compound: in closed form, in world axes.
 //!
 //! ```text
-//! separation    |centre - its foot on the segment| - (radius of the sphere + of the capsule): both ends are turned once, and a foot that
-//!               is a little beside its place is no nearer; the bound of projections (44 u) is enough
-//! normal        along that, square to the segment where the foot is inside; across it where the centre lies on it
-//! yes or no     the number's beyond twice the bound, else by integers
+//! separation    |centre - its foot on the segment| - (radius of the sphere + of the capsule): both ends are rotated
+//!               once, and a foot that is a little off its place is no nearer: the error bound of projections (44 u)
+//!               suffices
+//! normal        from the foot to the centre, square to the segment if the foot is inside it; across the segment if the
+//!               centre lies on it
+//! yes or no     by the number beyond twice its error bound, else by integers
 //! ```
-//! The general path looks for the closest points of two segments, in the first shape's axes: a distance takes 230 ns
+//! The general path searches for the closest points of two segments, in the first shape's axes: a distance takes 230 ns
 //! there and 40 here (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
@@ -17,17 +19,17 @@ use crate::precision::Precision;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
-/// A sphere and a segment with a radius, as they stand.
+/// A sphere and a segment with a radius, with their poses.
 pub(super) struct BallOnRod<'p> {
     pair: &'p Pair3<'p>,
     rod: Slender,
-    /// The sphere's centre from the rod's position, in metres.
+    /// The sphere's centre relative to the rod's position, in metres.
     center: DVec3,
     radius: f64,
-    /// Its foot on the segment: where between both ends, 0 to 1, and from the rod's position.
+    /// The centre's foot on the segment: where between both ends, 0 to 1, and relative to the rod's position.
     place: f64,
     foot: DVec3,
-    /// Of centre and foot.
+    /// From the foot to the centre.
     distance: f64,
     /// Whether the rod is B.
     is_b: bool,

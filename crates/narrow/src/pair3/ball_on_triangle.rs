@@ -1,14 +1,15 @@
-//! A sphere and a triangle that are parts of nothing: answered at once, in the triangle's axes.
+//! A sphere and a triangle that are not parts of a compound: in closed form, in the triangle's axes.
 //!
 //! ```text
-//! separation    |centre - the point of the triangle nearest to it| - radius: no more than that, and no less than what a projection on
-//!               that axis shows of all three corners; where those two differ by more than an eighth of the bound of projections,
-//!               as beside needles, others are asked
-//! normal        the face's where that point is inside of it, or the centre lies on the triangle; else along both
-//! yes or no     the number's beyond twice the bound, else by integers
+//! separation    |centre - the nearest point of the triangle| - radius: an upper bound; the lower bound is what a
+//!               projection of all three corners on that axis shows. Where the two differ by more than an eighth of the
+//!               error bound of projections, as beside needles, the general path answers
+//! normal        the face's if that point is inside it, or the centre lies on the triangle; else from point to centre
+//! yes or no     by the number beyond twice its error bound, else by integers
 //! ```
-//! The general path sees a solid with two faces, looks for the closest points of that and a point, and names a feature
-//! for them: a manifold takes 830 ns there and 260 here (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
+//! The general path treats the triangle as a solid with two faces, searches for the closest points of that and a point,
+//! and derives a feature from them: a manifold takes 830 ns there and 260 here (Intel Xeon, Ice Lake, 2 virtual cores,
+//! 2026-11-26).
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};
@@ -31,7 +32,7 @@ impl Pair3<'_> {
     }
 }
 
-/// What of a triangle is nearest to a point; nothing where that is not proved.
+/// The nearest place of a triangle to a point; `None` if that is not proved.
 #[inline]
 fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, precision: &Precision) -> Option<Nearest> {
     let corners = triangle.vertices().map(|corner| corner.as_dvec3());
@@ -58,7 +59,7 @@ fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, precision: &Precision
     precision.is_proved(nearest.distance, at_least).then_some(nearest)
 }
 
-/// An edge, or the corner at its end.
+/// The feature at a place on an edge, from 0 at its start to 1 at its end: the edge, or a corner at one of its ends.
 fn feature_on(edge: usize, place: f64) -> Feature {
     match place {
         _ if place <= 0.0 => Feature::Vertex(edge as u32),

@@ -1,16 +1,16 @@
-//! Two spheres that are parts of nothing: answered at once, in the world's axes.
+//! Two spheres that are not parts of a compound: in closed form, in world axes.
 //!
 //! ```text
-//! separation    |b - a| - (radius of a + radius of b): the subtraction of positions, three squares, two sums and a root
-//!               are off by less than 8 u of |b - a|, of which the bound of projections (44 u) is enough
-//! normal        along b - a; up where the centres are one, or so near that rounding would choose
-//! yes or no     the number's beyond twice the bound, else by integers
+//! separation    |b - a| - (radius of a + radius of b): the subtraction of positions, three squares, two sums and a
+//!               root are off by less than 8 u of |b - a|, well within the error bound of projections (44 u)
+//! normal        along b - a; up where the centres coincide, or are so near that rounding would choose
+//! yes or no     by the number beyond twice its error bound, else by integers
 //! ```
-//! The general path, which knows them as points with a radius, makes both bodies' axes and looks for the closest points
-//! of two segments: a distance takes 325 ns there and 10 here (AMD EPYC, Zen 4, 2026-11-22).
+//! The general path, which treats them as points with a radius, computes both bodies' axes and searches for the closest
+//! points of two segments: a distance takes 325 ns there and 10 here (AMD EPYC, Zen 4, 2026-11-22).
 //!
-//! What is told of a sphere and a cuboid (`ball`), a half-space (`on_plane`), a capsule (`ball_on_rod`), a triangle
-//! (`ball_on_triangle`) or a hull (`ball_on_hull`), and of two capsules (`rods`), is told in the same way: [`Told`].
+//! A sphere and a cuboid (`ball`), a half-space (`on_plane`), a capsule (`ball_on_rod`), a triangle
+//! (`ball_on_triangle`) or a hull (`ball_on_hull`), and two capsules (`rods`), are answered in the same way: [`Told`].
 
 use super::{IDENTITY, Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
@@ -22,22 +22,22 @@ use crate::room::Room;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3};
 
-/// Two spheres, as they stand.
+/// Two spheres, with their poses.
 struct Balls<'p> {
     pair: &'p Pair3<'p>,
     /// In metres.
     radii: [f64; 2],
-    /// Of the centres.
+    /// The distance of the centres.
     distance: f64,
     separation: f64,
     precision: Precision,
 }
 
-/// What is told at once of two spheres, of a sphere and a cuboid, a capsule, a triangle or a hull, of two capsules, and
-/// of what is over a half-space; nothing of all other pairs.
+/// The answers of pairs in closed form: two spheres, a sphere and a cuboid, a capsule, a triangle or a hull, two
+/// capsules, and anything convex over a half-space. `None` for all other pairs.
 impl Pair3<'_> {
-    /// Itself, where there may be a closed form: asked first, since most pairs have none, and are told apart in some
-    /// ns.
+    /// The pair itself, if it may have a closed form. Checked first, since most pairs have none, and this excludes them
+    /// in some ns.
     #[inline(always)]
     fn with_closed_form(&self) -> Option<&Self> {
         let may_have = |shape: &Shape3| matches!(shape, Shape3::Sphere(_) | Shape3::HalfSpace(_));
@@ -94,7 +94,7 @@ impl Pair3<'_> {
             .or_else(|| pair.ball().map(|ball| ball.contact(margin, manifolds)))
     }
 
-    /// By integers, of shapes that need no axes for it; by which corners is where to begin.
+    /// Whether they overlap, by integers, for shapes whose exact test needs no axes. The search begins at `corners`.
     pub(super) fn overlaps_exactly(&self, corners: &[Corner]) -> bool {
         let (a, b) = (Part::whole(self.shape_a, &IDENTITY), Part::whole(self.shape_b, &IDENTITY));
         exact::overlaps3([&a.site(&self.pose_a), &b.site(&self.pose_b)], corners)
@@ -111,19 +111,19 @@ impl Pair3<'_> {
     }
 }
 
-/// A sphere that is part of nothing, and what is beside it.
+/// A sphere that is not a part of a compound, and the other shape.
 pub(super) struct BesideBall<'p> {
     pub(super) shape: &'p Shape3,
     pub(super) pose: &'p Pose3,
-    /// Whether that is B.
+    /// Whether the other shape is B.
     pub(super) is_b: bool,
-    /// The sphere's centre from its position, in world axes, and the sphere's radius, in metres.
+    /// The sphere's centre relative to the other shape's position, in world axes, and the sphere's radius, in metres.
     pub(super) center: DVec3,
     pub(super) radius: f64,
 }
 
 impl Pair3<'_> {
-    /// What is beside a sphere; of two, beside the first.
+    /// The shape beside a sphere; of two spheres, the second one.
     #[inline(always)]
     pub(super) fn beside_ball(&self) -> Option<BesideBall<'_>> {
         let (sphere, shape, pose, is_b) = match (self.shape_a, self.shape_b) {
@@ -137,7 +137,7 @@ impl Pair3<'_> {
 }
 
 impl BesideBall<'_> {
-    /// All lengths that enter.
+    /// The precision, whose reach is the sum of all lengths that enter.
     #[inline]
     pub(super) fn precision(&self) -> Precision {
         let reach = self.radius
@@ -148,13 +148,13 @@ impl BesideBall<'_> {
     }
 }
 
-/// A separation in closed form, with all that is told of it.
+/// A separation in closed form, and all answers that follow from it.
 pub(super) trait Told {
     fn pair(&self) -> &Pair3<'_>;
-    /// In metres, off by less than the projection of [`Told::precision`].
+    /// In metres, off by less than a projection of [`Told::precision`].
     fn separation(&self) -> f64;
     fn precision(&self) -> &Precision;
-    /// By how much it may be off beyond that, in metres.
+    /// By how much the separation may be off beyond that, in metres.
     #[inline]
     fn slack(&self) -> f64 {
         0.0
@@ -166,7 +166,7 @@ pub(super) trait Told {
     }
     /// Unit axis in world axes, from A to B.
     fn normal(&self) -> Vec3;
-    /// Where they are nearest to each other, or deepest in each other.
+    /// The points where the shapes are nearest to each other, or deepest in each other.
     fn anchors(&self) -> [Vec3; 2];
     fn feature(&self) -> FeatureId;
     /// Whether points are measured from B.
@@ -175,7 +175,7 @@ pub(super) trait Told {
         false
     }
 
-    /// Whether they overlap: by the number, and where it may be rounding, exactly.
+    /// Whether they overlap: by the separation, or exactly where that may be rounding.
     #[inline]
     fn verdict(&self) -> Verdict {
         let (separation, doubt) = (self.separation(), 2.0 * self.precision().projection() + self.slack());
@@ -218,7 +218,7 @@ pub(super) trait Told {
         Some(Closest3 { distance, error, normal, anchor_a, anchor_b, part_a: 0, part_b: 0 })
     }
 
-    /// Whether they overlap, if they are within the margin; the manifold goes where it is wanted.
+    /// Whether they overlap, if they are within the margin. The manifold is written if one is wanted.
     #[inline]
     fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
         let reach = reach_of(margin);
@@ -238,13 +238,13 @@ pub(super) trait Told {
         Ok(overlapping)
     }
 
-    /// Adds the points of a manifold that says all else.
+    /// Adds the points to a manifold whose other fields are set.
     #[inline]
     fn add_points(&self, _margin: f32, manifold: &mut Manifold3) {
         self.add_point(manifold);
     }
 
-    /// The only one.
+    /// Adds the only point.
     #[inline]
     fn add_point(&self, manifold: &mut Manifold3) {
         let ([anchor_a, anchor_b], feature) = (self.anchors(), self.feature());
@@ -295,7 +295,7 @@ impl Balls<'_> {
         if self.distance > self.precision.projection() {
             return self.pair.between / self.distance;
         }
-        // Mirrored where both change places.
+        // Mirrored when A and B are swapped.
         if self.pair.between.y < 0.0 { DVec3::NEG_Y } else { DVec3::Y }
     }
 }

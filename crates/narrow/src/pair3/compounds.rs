@@ -1,4 +1,4 @@
-//! Contacts of compounds in space, with what the last frame left.
+//! Contacts of compounds in space, with hints of the last frame.
 
 use super::part::for_parts_in;
 use super::{Pair3, Part};
@@ -11,8 +11,8 @@ use crate::shadow::is_many;
 use crate::whole3::{Wholes3, part_count};
 
 impl Pair3<'_> {
-    /// A contact of compounds. A direction that parts them as wholes comes first, where there may be one or it
-    /// saves much; pairs of parts, with what two of them left, come next.
+    /// A contact of compounds. First tries a direction that separates them as wholes, if there may be one or it saves
+    /// much; then pairs of parts, two of which have hints of their own from the last frame.
     pub(super) fn contact_of_parts(
         &self,
         asked: Asked,
@@ -28,11 +28,11 @@ impl Pair3<'_> {
         let sought = asked.hint.sought();
         let sought =
             sought.and_then(|(direction, is_due)| Some((bases[0].turn(direction).try_normalize()?, is_due)));
-        // Where none is due, the middles part more pairs of parts than a direction that has failed.
+        // If none is due, the direction from centre to centre separates more pairs of parts than one that has failed.
         let due = sought.filter(|&(_, is_due)| is_due);
         let (from, is_due) = due.unwrap_or_else(|| (wholes.towards_b(), false));
         let [a, b] = [self.shape_a, self.shape_b].map(part_count);
-        // Beside few parts, a tree of many tells sooner than all their projections.
+        // Against few parts, searching the tree of many is faster than projecting all of them.
         let is_worth_it = match self.has_many_parts() {
             true => is_due && a.max(b) <= 8 * a.min(b),
             false => is_due || is_many([a, b]),

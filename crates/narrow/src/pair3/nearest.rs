@@ -10,10 +10,11 @@ use crate::precision::round_down;
 use asunder_geometry::Basis3;
 
 impl<'a> Pair3<'a> {
-    /// Asks about pairs of parts until it is enough: all that may be as near as the nearest so far.
+    /// Calls `ask` for all pairs of parts that may be as near as the nearest so far, until it returns that it has
+    /// enough.
     ///
-    /// Of a compound of many parts, those that are nearest to the other come first. Of two such, one pair that is
-    /// close is measured first, and what is further apart is passed over. Of compounds of few, all in order.
+    /// Parts of a compound of many are visited roughly nearest first. With two such compounds, one close pair is
+    /// measured first, and whatever is further apart is left out. With compounds of few parts, all pairs in order.
     pub(super) fn ask_nearest<P>(
         &self,
         bases: &[Basis3; 2],
@@ -22,7 +23,7 @@ impl<'a> Pair3<'a> {
     ) {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let mut within = least.reach();
-        // A bound for parts that no tree hands over.
+        // A bound for parts that no tree visits.
         least.give_up(if self.has_many_parts() { round_down(within) } else { f32::INFINITY });
         match [self.shape_a, self.shape_b].map(many3) {
             [Some(a), None] => {
@@ -53,8 +54,8 @@ impl<'a> Pair3<'a> {
         });
     }
 
-    /// How far apart two parts are at most that are near each other, or zero where they overlap: nobody need look
-    /// further.
+    /// An upper bound on the separation, from two parts that are near each other; zero if they overlap. No search need
+    /// look further.
     fn no_further_than(&self, bases: &[Basis3; 2]) -> f64 {
         let middle_a = bases[0].turn(self.shape_a.center().as_dvec3());
         let b = Part::nearest(self.shape_b, &bases[1], middle_a - self.between);
@@ -67,17 +68,17 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// Where the parts of A are that may be so near to one of B, or to all of B.
+    /// Where parts of A must be to be so near to a part of B, or to B as a whole.
     pub(super) fn around_b(&self, b: &Part, within: f64) -> Region3 {
         Region3 { center: self.between + b.center, radius: f64::from(b.shape.outer_radius()) + within }
     }
 
-    /// The same the other way round.
+    /// Where parts of B must be to be so near to a part of A, or to A as a whole.
     pub(super) fn around_a(&self, a: &Part, within: f64) -> Region3 {
         Region3 { center: a.center - self.between, radius: f64::from(a.shape.outer_radius()) + within }
     }
 
-    /// Whether either is a compound of so many parts that its tree is asked.
+    /// Whether either shape is a compound of so many parts that its tree is searched.
     pub(super) fn has_many_parts(&self) -> bool {
         [self.shape_a, self.shape_b].iter().any(|shape| many3(shape).is_some())
     }

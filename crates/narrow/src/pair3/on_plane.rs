@@ -1,14 +1,14 @@
-//! A half-space and a shape that is no compound and no ground, both parts of nothing: answered at once, in the world's
+//! A half-space and a shape that is neither compound nor ground, both not parts of a compound: in closed form, in world
 //! axes about the half-space's position.
 //!
 //! ```text
-//! separation    n . (lowest vertex - a point of the plane) - radius: vertex and normal are turned once each, which is what the bound of
-//!               projections (44 u) was made for
-//! yes or no     the number's beyond twice the bound, else by integers
-//! points        the corners of the face that looks at the plane                                             (polyhedron::half_space)
+//! separation    n . (lowest vertex - a point of the plane) - radius: vertex and normal are rotated once each, which is
+//!               what the error bound of projections (44 u) is made for
+//! yes or no     by the number beyond twice its error bound, else by integers
+//! points        the corners of the face that faces the plane                                (polyhedron::half_space)
 //! ```
-//! The general path sees one shape in the other's axes, which takes a rotation between both, and one back: of a sphere
-//! a manifold takes 330 ns there and 60 here, of a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2
+//! The general path works in one shape's axes, which takes the rotation between both, and one back: for a sphere a
+//! manifold takes 330 ns there and 60 here, for a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2
 //! virtual cores, 2026-11-26).
 
 use super::balls::Told;
@@ -21,16 +21,17 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE};
 use asunder_geometry::{Basis3, Shape3};
 
-/// A half-space and another shape, as they stand.
+/// A half-space and another shape, with their poses.
 pub(super) struct OnPlane<'p> {
     pair: &'p Pair3<'p>,
     /// In world axes, about the half-space's position.
     plane: Plane,
     shape: &'p Shape3,
-    /// The shape's axes in the world, which a sphere does not need, and its position from the half-space's, in metres.
+    /// The shape's axes in the world, which a sphere does not need, and its position relative to the half-space's, in
+    /// metres.
     basis: Basis3,
     offset: DVec3,
-    /// The vertex of its core that is lowest over the plane, and its height.
+    /// The lowest vertex of the shape's core over the plane, and its height.
     lowest: DVec3,
     height: f64,
     radius: f64,
@@ -69,14 +70,14 @@ impl Pair3<'_> {
 }
 
 impl OnPlane<'_> {
-    /// From points in the world's axes about the half-space's position: one of the shape, and one of the plane.
+    /// Anchors from a point of the shape and one of the plane, in world axes about the half-space's position.
     #[inline]
     fn anchors_of(&self, [of_shape, of_plane]: [DVec3; 2]) -> [Vec3; 2] {
         let (of_shape, of_plane) = ((of_shape - self.offset).as_vec3(), of_plane.as_vec3());
         if self.plane.is_b { [of_shape, of_plane] } else { [of_plane, of_shape] }
     }
 
-    /// So much of the shape's diameter.
+    /// A share of the shape's diameter, in metres.
     fn of_shape(&self, share: f64) -> f64 {
         self.precision.share(share, self.shape.outer_radius().into())
     }
@@ -109,7 +110,7 @@ impl Told for OnPlane<'_> {
         self.anchors_of([self.lowest - normal * self.radius, self.lowest - normal * self.height])
     }
 
-    /// Of a sphere.
+    /// The features of a sphere on a plane.
     fn feature(&self) -> FeatureId {
         let (of_plane, of_sphere) = (Feature::Face(0), Feature::Vertex(0));
         if self.plane.is_b {

@@ -6,49 +6,49 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Basis3, Compound3, Pose3, Shape3};
 use core::ops::ControlFlow;
 
-/// A convex part of a body, as the body stands.
+/// A convex part of a body, in the body's current pose.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<'a> {
     pub(crate) index: u32,
     pub(crate) shape: &'a Shape3,
-    /// Where it is in its compound; a shape that is none is its own only part.
+    /// Its pose in its compound; `None` for a whole shape, which is its own only part.
     local: Option<&'a Pose3>,
     /// Its bounding sphere's centre less the body's position, in world axes.
     pub(crate) center: DVec3,
 }
 
 impl<'a> Part<'a> {
-    /// A shape as a part of nothing: a compound by its bounding sphere alone.
+    /// A whole shape as its own only part; of a compound, only the bounding sphere is of use.
     pub(crate) fn whole(shape: &'a Shape3, basis: &Basis3) -> Self {
         let center = basis.turn(shape.center().as_dvec3());
         Self { index: 0, shape, local: None, center }
     }
 
-    /// The part of a shape whose box is nearest to a point, in metres and world axes from the body's position.
+    /// The part of a shape whose box is nearest to a point, which is in metres and world axes from the body's position.
     pub(super) fn nearest(shape: &'a Shape3, basis: &Basis3, point: DVec3) -> Self {
         let Shape3::Compound(compound) = shape else { return Self::whole(shape, basis) };
         let point = basis.turn_back(point).as_vec3();
         let mut nearest = 0;
         compound.visit_nearest(&Aabb3::new(point, point), f64::INFINITY, |part| {
             nearest = part;
-            // That is enough.
+            // A negative limit ends the search.
             -1.0
         });
         Self::of(compound, nearest, basis)
     }
 
-    /// A part of a compound, by its number.
+    /// A part of a compound, by its index.
     pub(crate) fn of(compound: &'a Compound3, index: u32, basis: &Basis3) -> Self {
         let part = &compound.parts()[index as usize];
         Self { index, shape: part.shape(), local: Some(part.pose()), center: basis.turn(part.center()) }
     }
 
-    /// Whether its axes are not its body's.
+    /// Whether its axes differ from its body's.
     pub(super) fn is_turned(&self) -> bool {
         self.local.is_some_and(|pose| pose.rotation().to_array()[..3] != [0.0; 3])
     }
 
-    /// Shape and poses as they were given, for exact questions.
+    /// Shape and poses as they were given, for exact tests.
     pub(crate) fn site(&self, body: &Pose3) -> Site3<'a> {
         Site3 { shape: self.shape, body: *body, part: self.local }
     }
@@ -74,8 +74,8 @@ pub(crate) fn for_parts<'a>(
     (0..compound.parts().len() as u32).any(|index| visit(Part::of(compound, index, basis)))
 }
 
-/// As [`for_parts`], in the same order; of a compound of many without those that are certainly outside a region, as the
-/// body's position sees it in world axes.
+/// Like [`for_parts`], in the same order, but of a compound of many parts leaves out those that are certainly outside a
+/// region. The region is in world axes, relative to the body's position.
 pub(super) fn for_parts_in<'a>(
     shape: &'a Shape3,
     basis: &Basis3,
@@ -93,7 +93,7 @@ pub(super) fn for_parts_in<'a>(
     in_order(walk, |index| visit(Part::of(compound, index, basis)))
 }
 
-/// The same in any order: the first that is found may be enough.
+/// The same in any order, for searches where the first that is found may be enough.
 pub(super) fn for_parts_near<'a>(
     shape: &'a Shape3,
     basis: &Basis3,
@@ -109,8 +109,8 @@ pub(super) fn for_parts_near<'a>(
     compound.visit_near(&bounds, is_enough).is_break()
 }
 
-/// Visits the parts of a compound in the order of their numbers, without those that are certainly outside a region that
-/// moves on a way, as far as a fraction of it; as the body's position sees it in world axes.
+/// Visits the parts of a compound in the order of their indices, without those that are certainly outside a region
+/// swept along `way`, up to the fraction `until` of it. Both are in world axes, relative to the body's position.
 pub(crate) fn for_parts_along<'a>(
     compound: &'a Compound3,
     basis: &Basis3,
@@ -128,8 +128,8 @@ pub(crate) fn for_parts_along<'a>(
     in_order(walk, |index| visit(Part::of(compound, index, basis)))
 }
 
-/// Visits parts roughly in the order of their distance from a region, as the body's position sees it in world axes, up
-/// to a limit in metres that the visitor may lower: it returns the new one.
+/// Visits parts roughly in the order of their distance from a region, up to a limit in metres, which the visitor may
+/// lower: it returns the new one. The region is in world axes, relative to the body's position.
 pub(super) fn for_nearest_parts<'a>(
     compound: &'a Compound3,
     basis: &Basis3,
@@ -142,7 +142,7 @@ pub(super) fn for_nearest_parts<'a>(
 }
 
 impl Region3 {
-    /// The same in the body's own axes.
+    /// The same region in the body's axes.
     fn turned_back(self, basis: &Basis3) -> Self {
         Self { center: basis.turn_back(self.center), ..self }
     }

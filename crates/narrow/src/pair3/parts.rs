@@ -13,11 +13,11 @@ use crate::room::Room;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3, Shape3};
 
-/// Two convex parts in the frame of the first, and the way back from there.
+/// Two convex parts in the frame of the first, with what maps back from there.
 pub(crate) struct Parts<'a> {
-    /// Their numbers in their bodies.
+    /// Their indices in their bodies.
     pub(crate) indices: [u32; 2],
-    /// A's axes in the world, or those of a cuboid that A is a ball beside.
+    /// The frame's axes in the world: A's. Of a sphere as A, those of a cuboid, or the world's beside another sphere.
     pub(crate) basis: Basis3,
     /// Each part's origin less its body's position, in world axes.
     shifts: [DVec3; 2],
@@ -33,8 +33,8 @@ pub(super) struct Found {
 }
 
 impl<'a> Pair3<'a> {
-    /// Two shapes that are no compounds as parts, in A's axes: as [`Pair3::parts`] has them, but for what no whole
-    /// shape asks for. A frame of hulls in the air makes thousands of them.
+    /// Two shapes that are not compounds, as parts in A's axes: like [`Pair3::parts`], without the work that only parts
+    /// of compounds need. A frame of hulls in the air makes thousands of these.
     #[inline(always)]
     pub(super) fn wholes(&self) -> Parts<'a> {
         if let Shape3::Sphere(_) = self.shape_a {
@@ -56,10 +56,10 @@ impl<'a> Pair3<'a> {
     pub(crate) fn parts(&self, bases: &[Basis3; 2], a: Part<'a>, b: Part<'a>) -> Parts<'a> {
         let (basis_a, shift_a) = a.placed(&bases[0]);
         let (basis_b, shift_b) = b.placed(&bases[1]);
-        // Positions first, then the parts' places: what is far from the origin cancels before it is turned.
+        // Positions first, then the parts' offsets: large coordinates cancel before anything is rotated.
         let between = self.between + (shift_b - shift_a);
         let (basis, relative) = match (a.shape, b.shape) {
-            // A ball has no axes: it takes those of the cuboid, in which the centre is one rotation away.
+            // A ball has no axes. It takes the cuboid's, in which its centre is one rotation away.
             (Shape3::Sphere(_), Shape3::Cuboid(_)) => (basis_b, IDENTITY),
             (Shape3::Sphere(_), Shape3::Sphere(_)) => (IDENTITY, IDENTITY),
             _ if a.is_turned() || b.is_turned() => (basis_a, basis_b.relative_to(&basis_a)),
@@ -104,7 +104,7 @@ impl Parts<'_> {
         }
     }
 
-    /// Adds the contact points; returns the hint that keeps them where they are in the next frame.
+    /// Adds the contact points; returns a hint with which the next frame builds them on the same axis.
     fn add_manifold(&self, near: &Near, touch: &Touch, to: &mut impl Room) -> Hint {
         if let Some(manifold) = to.room(near.separation) {
             [manifold.part_a, manifold.part_b] = self.indices;
@@ -123,8 +123,8 @@ impl Parts<'_> {
         touch.of.map_or(near.hint, |of| hint_with(near.hint, of))
     }
 
-    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond
-    /// it.
+    /// The closest points within a limit: `None` if the parts overlap; `Err` with a lower bound on the distance if they
+    /// are beyond the limit.
     pub(super) fn closest(&self, limit: f64) -> Result<Option<Closest3>, f32> {
         match self.convex.gap(limit) {
             Gap::Beyond(at_least) => Err(at_least),
@@ -134,7 +134,7 @@ impl Parts<'_> {
         }
     }
 
-    /// The same where the shortest way does not tell.
+    /// The same by a full probe, where the gap search is unclear.
     pub(super) fn look_closer(&self, limit: f64) -> Result<Option<Closest3>, f32> {
         match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
             Probe::Beyond(at_least, _) => Err(at_least),
@@ -152,12 +152,12 @@ impl Parts<'_> {
         Closest3 { distance, error, normal, anchor_a, anchor_b, part_a, part_b }
     }
 
-    /// From the frame of the pair to a world vector from A's position.
+    /// Maps a point from the frame of the pair to a world vector from A's position.
     pub(crate) fn anchor_a(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point) + self.shifts[0]).as_vec3()
     }
 
-    /// From the frame of the pair to a world vector from B's position.
+    /// Maps a point from the frame of the pair to a world vector from B's position.
     pub(crate) fn anchor_b(&self, point: DVec3) -> Vec3 {
         (self.basis.turn(point - self.convex.offset) + self.shifts[1]).as_vec3()
     }

@@ -1,14 +1,15 @@
-//! Two capsules or segments that are parts of nothing: answered at once, in the world's axes.
+//! Two capsules or segments that are not parts of a compound: in closed form, in world axes.
 //!
 //! ```text
-//! separation    of the closest points of two segments, in closed form (polyhedron::slender), less both radii; where a projection on
-//!               their axis shows less, by more than an eighth of the bound of projections, others are asked
-//! yes or no     the number's beyond twice the bound, else by integers
+//! separation    of the closest points of two segments, in closed form (polyhedron::slender), less both radii; where a
+//!               projection on their axis shows less, by more than an eighth of the error bound of projections, the
+//!               general path answers
+//! yes or no     by the number beyond twice its error bound, else by integers
 //! points        one, or both ends of the stretch along which they lie side by side
 //! ```
-//! The general path sees B in A's axes, which takes a rotation between both, and one back: a distance takes 390 ns
-//! there and 170 here. Yes or no, and manifolds, take as long as there; they are told here for the number, which is one
-//! whatever is asked (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
+//! The general path works in A's axes, which takes the rotation between both, and one back: a distance takes 390 ns
+//! there and 170 here. Yes or no, and manifolds, take as long as there; they are answered here so that every query
+//! gives the same number (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
 
 use super::balls::Told;
 use super::{Pair3, reach_of};
@@ -20,7 +21,7 @@ use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::FACE_PREFERENCE;
 
-/// Two segments with radii, as they stand, in world axes about A's position.
+/// Two segments with radii, with their poses, in world axes about A's position.
 pub(super) struct Rods<'p> {
     pair: &'p Pair3<'p>,
     rods: [Slender; 2],
@@ -102,7 +103,7 @@ impl Told for Rods<'_> {
 }
 
 impl Rods<'_> {
-    /// From points in world axes about A's position.
+    /// Anchors from points in world axes about A's position.
     #[inline]
     fn anchors_of(&self, [on_a, on_b]: [DVec3; 2]) -> [Vec3; 2] {
         [on_a.as_vec3(), (on_b - self.pair.between).as_vec3()]
