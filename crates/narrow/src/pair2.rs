@@ -23,19 +23,19 @@ use part::{Part, for_parts, for_parts_in, for_parts_near};
 
 /// Two posed shapes in the plane, ready to be asked about each other.
 ///
-/// Positions are subtracted in f64 before anything is turned, so that nothing degrades far from the origin.
+/// Positions are subtracted in f64 before anything is rotated, so that nothing degrades far from the origin.
 ///
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
 /// | half-plane, anything | its line's normal alone: one dot product a vertex | lowest vertex | lowest vertex and its neighbour |
-/// | half-plane, half-plane | lines that look exactly away from each other; else they overlap without end | half way | one, or none |
+/// | half-plane, half-plane | lines that face exactly away from each other; else they overlap without end | half way | one, or none |
 /// | circle, circle | the line through both centres | the same | one |
 /// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | chain, anything | the least of its segments' | the same | a manifold for each normal of what is touched |
 ///
-/// Radii (of circles, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
-/// A segment has two edges, back to back.
+/// Radii (of circles, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
+/// subtracted. A segment has two edges, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
@@ -59,13 +59,13 @@ pub struct Pair2<'a> {
     between: DVec2,
 }
 
-/// Two convex parts in the frame of the pair, and the way back from there.
+/// Two convex parts in the frame of the pair, with what maps back from there.
 struct Parts<'a> {
     place: Place,
     convex: Convex<'a>,
 }
 
-/// Where two parts are: what leads back from the frame of the pair.
+/// The indices of two parts, and what maps their points from the frame of the pair back to the bodies.
 #[derive(Clone, Copy)]
 struct Place {
     indices: [u32; 2],
@@ -91,19 +91,19 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-plane, whose
-    /// pairs have tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres, to which tolerances of this pair are relative. Infinite with a
+    /// half-plane, whose pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
 
     /// Whether the shapes share a point, exactly; touching counts.
     ///
-    /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
+    /// Settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
     /// [`verdict`](Self::verdict) says which.
     ///
     /// Cost:
-    /// - Constant where circles around or inside the shapes tell, and for rectangles.
+    /// - Constant where circles around or inside the shapes decide, and for rectangles.
     /// - Polygons of up to 16 vertices: the product of the vertex counts.
     /// - Polygons of more: the logarithm of the vertices, and no more than their number however they overlap.
     /// - Shapes that touch up to rounding: some microseconds more.
@@ -111,8 +111,8 @@ impl<'a> Pair2<'a> {
         self.verdict().overlapping
     }
 
-    /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of a
-    /// one-sided chain only the runs that have the middle of a part in front of them. Two chains see each other from
+    /// Whether the shapes share a point, as contacts and characters see it: like [`overlaps`](Self::overlaps), but a
+    /// run of a one-sided chain counts only if the centre of a part is in front of it. Two chains see each other from
     /// all sides. Exact, and no more than a yes or no.
     ///
     /// ```
@@ -162,9 +162,9 @@ impl<'a> Pair2<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// What the first tier alone says about the overlap, right or wrong: the sign that its numbers have.
+    /// The overlap as the first tier alone sees it, right or wrong: by the sign of its numbers.
     ///
-    /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
+    /// It is for comparison: the difference to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Pose2, Shape2};
@@ -184,9 +184,9 @@ impl<'a> Pair2<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// - Beyond the limit it may stop at any axis that shows so much, with [`Separation2::AtLeast`]. A NaN counts as no
+    /// - Beyond the limit it may stop at any axis that shows as much, with [`Separation2::AtLeast`]. A NaN counts as no
     ///   limit, and a negative limit as zero.
-    /// - Two half-planes have separation -inf unless they look exactly away from each other.
+    /// - Two half-planes have separation -inf unless they face exactly away from each other.
     ///
     /// Cost:
     /// - Polygons of up to 16 vertices: the product of the vertex counts.
@@ -215,9 +215,9 @@ impl<'a> Pair2<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. For compounds this is the deepest pair of parts; [`Pair2::manifolds`]
-    /// has them all. `None` for two half-planes that overlap without end. Cost: as the separation, plus clipping two
-    /// edges.
+    /// A point may be up to the margin outside. For compounds this is the manifold of the deepest pair of parts;
+    /// [`Pair2::manifolds`] has them all. `None` for two half-planes that overlap without end. Cost: as the separation,
+    /// plus clipping two edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
         if self.has_ground() {
             return self.deepest_on_ground(margin).1;
@@ -262,8 +262,8 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// Like [`Pair2::manifolds`], but one by one: for code that asks every frame and has no list. The thread keeps the
-    /// memory.
+    /// Like [`Pair2::manifolds`], but one by one: for code that runs every frame and has no list. The memory is kept
+    /// per thread.
     ///
     /// ```
     /// use asunder_geometry::{HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
@@ -280,8 +280,7 @@ impl<'a> Pair2<'a> {
         with_manifolds2(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
-    /// The hint for the next frame, and how they met. Manifolds go where they
-    /// are wanted.
+    /// Returns the hint for the next frame, and how they met. Passes manifolds to `keep` if they are wanted.
     pub(crate) fn contact(
         &self,
         margin: f32,
@@ -290,7 +289,7 @@ impl<'a> Pair2<'a> {
         mut keep: impl FnMut(Manifold2),
     ) -> (Hint, Met) {
         let margin = margin.max(0.0);
-        // What rounds to the margin counts as within it: the number that is told decides.
+        // What rounds to the margin counts as within it: the reported number decides.
         let reach = f64::from(margin.next_up());
         let asked = Asked { limit: reach, hint, points: is_wanted };
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
@@ -315,7 +314,7 @@ impl<'a> Pair2<'a> {
         (hint, found.map(|found| found.0))
     }
 
-    /// The pair of parts with the least separation, or a bound where all are beyond the limit.
+    /// The pair of parts with the least separation, or a bound if all are beyond the limit.
     fn nearest(&self, limit: f64) -> Result<(Place, Near), f32> {
         if self.has_ground() {
             return self.nearest_on_ground(limit);
@@ -349,7 +348,7 @@ impl<'a> Pair2<'a> {
         Ok((place, near))
     }
 
-    /// As a whole, without parts.
+    /// The pair as whole bodies, without parts.
     fn bodies(&self) -> Bodies<'_> {
         let (shapes, turns) = ([self.shape_a, self.shape_b], [&self.turn_a, &self.turn_b]);
         Bodies { shapes, turns, between: self.between }
@@ -370,7 +369,7 @@ impl<'a> Pair2<'a> {
         })
     }
 
-    /// Whether two convex parts, given with their places in their bodies, overlap, exactly.
+    /// Whether two convex parts, given with their poses in their bodies, overlap, exactly.
     pub(crate) fn do_pieces_overlap(&self, [a, b]: [(&Shape2, Option<&Pose2>); 2]) -> bool {
         let [a, b] = [(a, &self.turn_a), (b, &self.turn_b)]
             .map(|((shape, local), turn)| Part { local, ..Part::whole(shape, turn) });
@@ -381,18 +380,20 @@ impl<'a> Pair2<'a> {
         matches!(self.shape_a, Shape2::Compound(_)) || matches!(self.shape_b, Shape2::Compound(_))
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding circles, less what it may have
-    /// lost to rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding circles, less a bound on its
+    /// rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let apart = (self.between + b.center - a.center).length();
-        // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two.
+        // A stored rotation stretches by its length, which is one up to the rounding of f32; a part has two such
+        // rotations.
         let stretch = 1.0 + 4.0 * f64::from(f32::EPSILON);
         let radii = (f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius())) * stretch;
         let reach = self.between.length() + a.center.length() + b.center.length() + radii;
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
-    /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
+    /// The sum of the lengths of the vectors that add up to the offset between two parts of compounds; `None` for
+    /// whole shapes, whose offset is a single vector.
     fn summed(&self, shift_a: DVec2, shift_b: DVec2) -> Option<f64> {
         self.is_compound().then(|| self.between.length() + shift_a.length() + shift_b.length())
     }
@@ -400,7 +401,7 @@ impl<'a> Pair2<'a> {
     fn parts<'p>(&self, a: Part<'p>, b: Part<'p>) -> Parts<'p> {
         let (turn_a, shift_a) = a.placed(&self.turn_a);
         let (turn_b, shift_b) = b.placed(&self.turn_b);
-        // Positions first, then the parts' places: what is far from the origin cancels.
+        // Positions first, then the parts' offsets: large coordinates cancel.
         let offset = self.between + (shift_b - shift_a);
         let summed = self.summed(shift_a, shift_b);
         let convex =
@@ -410,8 +411,8 @@ impl<'a> Pair2<'a> {
 }
 
 impl Parts<'_> {
-    /// The hint for the next frame; whether they overlap and how deep, if they are within the margin, else by how much
-    /// they are beyond it.
+    /// The hint for the next frame, and whether they overlap and their separation, if they are within the margin; else
+    /// by how much they are beyond it.
     fn contact(
         &self,
         asked: &Asked,
@@ -434,24 +435,24 @@ impl Parts<'_> {
 }
 
 impl Place {
-    /// From the frame of the pair to world vectors from A's position and from B's.
+    /// What to add to points in the frame of the pair to get world vectors from A's position and from B's.
     fn shifts(&self) -> [DVec2; 2] {
         [self.shifts[0], self.shifts[1] - self.offset]
     }
 
-    /// From the frame of the pair to a world vector from A's position.
+    /// Maps a point from the frame of the pair to a world vector from A's position.
     fn anchor_a(&self, point: DVec2) -> Vec2 {
         (point + self.shifts[0]).as_vec2()
     }
 
-    /// From the frame of the pair to a world vector from B's position.
+    /// Maps a point from the frame of the pair to a world vector from B's position.
     fn anchor_b(&self, point: DVec2) -> Vec2 {
         (point - self.offset + self.shifts[1]).as_vec2()
     }
 }
 
-/// The parts by their indices, and how points of the frame of the pair are shifted to become vectors from A's
-/// position and from B's.
+/// A manifold of the parts with these indices. `shifts` are added to points in the frame of the pair to get vectors
+/// from A's position and from B's.
 #[inline]
 fn manifold(near: &Near, touch: &Touch, (indices, shifts): ([u32; 2], [DVec2; 2])) -> Manifold2 {
     let mut points = ContactPoints::new();

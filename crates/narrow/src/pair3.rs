@@ -32,22 +32,22 @@ pub(crate) use parts::Parts;
 
 /// Two posed shapes in space, ready to be asked about each other.
 ///
-/// Positions are subtracted in f64 before anything is turned, so that nothing degrades far from the origin.
+/// Positions are subtracted in f64 before anything is rotated, so that nothing degrades far from the origin.
 ///
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
-/// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that looks at the plane |
-/// | half-space, half-space | planes that look exactly away from each other; else they overlap without end | half way | one, or none |
+/// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that faces the plane |
+/// | half-space, half-space | planes that face exactly away from each other; else they overlap without end | half way | one, or none |
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
-/// | sphere, cuboid | the centre held to the cuboid; inside, its nearest face | the same | one |
+/// | sphere, cuboid | the centre clamped to the cuboid; inside, its nearest face | the same | one |
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
-/// | sphere, triangle or hull | inside, the face that is least deep; else the closest point, found by a walk from face to edge to corner, and proved by a projection | the same | one |
+/// | sphere, triangle or hull | inside, the face of least depth; else the closest point, found by a walk from face to edge to corner, and proved by a projection | the same | one |
 /// | anything else of cuboid, hull, triangle, with each other or with any of the above | face normals, and the edge pairs whose arcs cross on the Gauss map | GJK | as for cuboids |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | mesh or height field, anything | the least of its triangles' near the other | the same | a manifold for each normal of a part |
 ///
-/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the cores are asked, and both radii taken off.
-/// Triangles and flat hulls have two faces, back to back.
+/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
+/// subtracted. Triangles and flat hulls have two faces, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -77,36 +77,36 @@ impl<'a> Pair3<'a> {
         Self { shape_a, shape_b, pose_a: *pose_a, pose_b: *pose_b, between }
     }
 
-    /// Both shapes, where they are cuboids: those have kernels of their own.
+    /// Both shapes, if they are cuboids, which have kernels of their own.
     #[inline]
     pub(crate) fn cuboids(&self) -> Option<Posed<'_>> {
         let (Shape3::Cuboid(a), Shape3::Cuboid(b)) = (self.shape_a, self.shape_b) else { return None };
         Some(Posed { cuboids: [a, b], poses: [&self.pose_a, &self.pose_b] })
     }
 
-    /// The sum of the two bounding radii, in metres: the measure of this pair. Infinite with a half-space, whose
-    /// pairs have tolerances relative to the other shape.
+    /// The sum of the two bounding radii, in metres, to which tolerances of this pair are relative. Infinite with a
+    /// half-space, whose pairs have tolerances relative to the other shape.
     pub fn size(&self) -> f32 {
         self.shape_a.outer_radius() + self.shape_b.outer_radius()
     }
 
-    /// Whether the shapes share a point, exactly; touching counts. Ground knows no sides here.
+    /// Whether the shapes share a point, exactly; touching counts. One-sided ground counts from both sides here.
     ///
-    /// Settled by the error bounds of f64 where they tell, else by certificates in f64, else by exact arithmetic:
+    /// Settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
     /// [`verdict`](Self::verdict) says which.
     ///
     /// Cost:
     /// - Cuboids: fifteen axes.
     /// - Others: some support searches, each linear in the vertices.
     /// - Shapes that touch up to rounding: some microseconds more.
-    /// - Ground: that for each triangle whose box a part's box meets; two grounds: for each triangle of one that is
-    ///   near the other.
+    /// - Ground: the above for each triangle whose box meets a part's box; two grounds: for each triangle of one that
+    ///   is near the other.
     pub fn overlaps(&self) -> bool {
         self.verdict().overlapping
     }
 
-    /// Whether the shapes share a point, as contacts and characters see it: [`overlaps`](Self::overlaps), but of
-    /// one-sided ground only the triangles that have the middle of a part in front of them. Two grounds see each other
+    /// Whether the shapes share a point, as contacts and characters see it: like [`overlaps`](Self::overlaps), but a
+    /// triangle of one-sided ground counts only if the centre of a part is in front of it. Two grounds see each other
     /// from all sides. Exact, and no more than a yes or no.
     ///
     /// ```
@@ -123,8 +123,8 @@ impl<'a> Pair3<'a> {
     /// ```
     pub fn overlaps_front(&self) -> bool {
         match OnGround::of(self) {
-            // Contacts and casts tell a middle that is in a front's plane up to rounding by other roundings of that
-            // plane: this goes with contacts.
+            // For a centre that is in the plane of a front up to rounding, contacts and casts round that plane
+            // differently and may disagree. This agrees with contacts.
             Some(on) if on.ground.is_one_sided() && !on.body.is_ground() => {
                 self.contact(0.0, Hint::NONE, None).1 == Ok(true)
             }
@@ -172,10 +172,10 @@ impl<'a> Pair3<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// What the first tier alone says about the overlap, right or wrong: the sign that its numbers have. By the general
-    /// kernels, which those of cuboids have overtaken.
+    /// The overlap as the first tier alone sees it, right or wrong: by the sign of its numbers. Always by the general
+    /// kernels, also for cuboids, whose own kernels have overtaken those.
     ///
-    /// It is there to be measured against: the difference to [`overlaps`](Self::overlaps) is what certainty costs.
+    /// It is for comparison: the difference to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, Shape3, Sphere};
@@ -195,18 +195,19 @@ impl<'a> Pair3<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// - Beyond the limit it may stop at any axis that shows so much, with [`Separation3::AtLeast`]. A NaN counts as no
+    /// - Beyond the limit it may stop at any axis that shows as much, with [`Separation3::AtLeast`]. A NaN counts as no
     ///   limit, and a negative limit as zero.
-    /// - Two half-spaces have separation -inf unless they look exactly away from each other.
-    /// - Of ground it is the least of all triangles'. In overlap it says how deep the deepest single triangle is, from
-    ///   whichever side is nearer: push out by [`manifolds`](Self::manifolds), which know the ground around it.
+    /// - Two half-spaces have separation -inf unless they face exactly away from each other.
+    /// - For ground it is the least of all triangles' separations. In overlap it is the depth in the deepest single
+    ///   triangle, from whichever side is nearer: to push a body out, use [`manifolds`](Self::manifolds), which know
+    ///   the ground around it.
     ///
     /// Cost:
     /// - Cuboids: fifteen axes.
-    /// - Two hulls: linear in faces, edges and vertices, plus what culling leaves of them, pair by pair.
+    /// - Two hulls: linear in faces, edges and vertices, plus the pairs of those that culling leaves.
     /// - In a gap: a few support searches, for the Euclidean distance.
     /// - Ground, nearest first through the index: logarithmic in its triangles where the shapes are apart, linear for a
-    ///   half-space; two grounds: that for each triangle of one that is near the other.
+    ///   half-space; two grounds: the same for each triangle of one that is near the other.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
@@ -258,9 +259,9 @@ impl<'a> Pair3<'a> {
 
     /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
     ///
-    /// A point may lie up to the margin outside. For compounds this is the deepest pair of parts; [`Pair3::manifolds`]
-    /// has them all. `None` for two half-spaces that overlap without end. Cost: as the separation, plus clipping two
-    /// faces.
+    /// A point may be up to the margin outside. For compounds this is the manifold of the deepest pair of parts;
+    /// [`Pair3::manifolds`] has them all. `None` for two half-spaces that overlap without end. Cost: as the separation,
+    /// plus clipping two faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
         let mut hint = Hint::NONE;
         if let Some(cuboids) = self.cuboids() {
@@ -298,8 +299,8 @@ impl<'a> Pair3<'a> {
         manifolds
     }
 
-    /// Like [`Pair3::manifolds`], but one by one: for code that asks every frame and has no list. The thread keeps the
-    /// memory.
+    /// Like [`Pair3::manifolds`], but one by one: for code that runs every frame and has no list. The memory is kept
+    /// per thread.
     ///
     /// ```
     /// use asunder_geometry::{HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};
@@ -316,8 +317,7 @@ impl<'a> Pair3<'a> {
         with_manifolds3(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
-    /// The hint for the next frame, and how they met. Manifolds go where they
-    /// are wanted.
+    /// Returns the hint for the next frame, and how they met. Adds manifolds to the list if there is one.
     #[inline]
     pub(crate) fn contact(
         &self,
@@ -362,8 +362,9 @@ impl<'a> Pair3<'a> {
         (hint, found.map(|found| found.overlapping))
     }
 
-    /// What is told of the pair of parts with the least separation, or a bound where all are beyond the limit. Told
-    /// here, since what is known of a pair is a kilobyte: handed back, closest points of hulls took 1.13 times as long.
+    /// Applies `tell` to the pair of parts with the least separation, or returns a bound if all are beyond the limit. A
+    /// callback, since the data of a pair is a kilobyte: with that returned, closest points of hulls took 1.13 times as
+    /// long.
     fn nearest<R>(&self, limit: f64, tell: impl FnOnce(&Parts<'a>, &Near) -> R) -> Result<R, f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
@@ -424,10 +425,10 @@ impl<'a> Pair3<'a> {
         matches!(self.shape_a, Shape3::Compound(_)) || matches!(self.shape_b, Shape3::Compound(_))
     }
 
-    /// A lower bound on the separation: the gap between spheres about the bodies' positions, less what it may have
-    /// lost to rounding. It asks for no rotation.
+    /// A lower bound on the separation: the gap between spheres about the bodies' positions, less a bound on its
+    /// rounding. Needs no rotation.
     pub(crate) fn gap_of_spheres(&self) -> f64 {
-        // A sum of coordinates bounds a length, and needs no root.
+        // A sum of coordinates bounds a length from above, and needs no root.
         let radius = |shape: &Shape3| {
             f64::from(shape.outer_radius()) + f64::from(shape.center().abs().element_sum().next_up())
         };
@@ -435,8 +436,8 @@ impl<'a> Pair3<'a> {
         apart - radii - 16.0 * f64::EPSILON * (apart + radii)
     }
 
-    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less what it may have
-    /// lost to rounding.
+    /// A lower bound on the separation of two parts: the gap between their bounding spheres, less a bound on its
+    /// rounding.
     fn gap(&self, a: &Part, b: &Part) -> f64 {
         let apart = (self.between + b.center - a.center).length();
         let radii = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
@@ -444,20 +445,21 @@ impl<'a> Pair3<'a> {
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
-    /// How long the vectors are that the way from part to part is a sum of, where it is one of several.
+    /// The lengths of the vectors that add up to the offset between two parts of compounds; zero for whole shapes,
+    /// whose offset is no sum.
     fn summed(&self, shift_a: DVec3, shift_b: DVec3) -> f64 {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
     }
 }
 
-/// A NaN counts as no limit, and a negative limit as zero.
+/// The limit as f64: a NaN counts as no limit, and a negative limit as zero.
 #[inline]
 pub(crate) fn limit_of(limit: f32) -> f64 {
     if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) }
 }
 
-/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the number that is
-/// told decides.
+/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the reported number
+/// decides.
 #[inline]
 pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()

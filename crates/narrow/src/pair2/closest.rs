@@ -1,4 +1,4 @@
-//! Closest points, and how far apart what is apart is: by the shortest way.
+//! Closest points, and the separation of shapes that are apart, by the fast path.
 
 use super::part::Part;
 use super::{Pair2, Parts, Place};
@@ -10,9 +10,9 @@ use crate::polygon::measure::{Asked, Near, Probe};
 
 impl Pair2<'_> {
     /// The closest points of shapes that do not overlap; `None` where they do. Cost: as [`overlaps`](Self::overlaps),
-    /// and where they do not some support searches, each linear in the vertices up to 16, above logarithmic.
+    /// and for shapes apart some support searches, each linear in the vertices up to 16, above logarithmic.
     pub fn distance(&self) -> Option<Closest2> {
-        // Yes or no is cheap, where the search below would end in an overlap, or in how deep each part is, for nothing.
+        // An overlap test is cheap; the search below would find the overlap, or the depth of each part, for nothing.
         if (!self.has_ground() || self.has_many_parts()) && self.overlaps() {
             return None;
         }
@@ -35,7 +35,8 @@ impl Pair2<'_> {
         Some(Closest2 { error, ..found? })
     }
 
-    /// The separation within a limit of two convex shapes whose bounding circles are apart, without axes and edges.
+    /// The separation within a limit of two convex shapes whose bounding circles are apart, without testing axes or
+    /// edges.
     pub(super) fn separation_apart(&self, limit: f64) -> Option<Separation2> {
         if self.has_ground() || self.is_compound() {
             return None;
@@ -53,7 +54,7 @@ impl Pair2<'_> {
     }
 }
 
-/// What is told of closest points; nothing where there are none.
+/// The closest points as they are reported; `None` where there are none.
 fn closest_of(place: &Place, near: Near) -> Option<Closest2> {
     let Near { separation, error, normal, closest, .. } = near;
     Some(place.closest(&Apart { separation, error, normal, points: closest? }))
@@ -69,8 +70,8 @@ impl Place {
 }
 
 impl Parts<'_> {
-    /// The closest points within a limit, if they have any: those that overlap do not; else by how much they are beyond
-    /// it.
+    /// The closest points within a limit: `None` if the parts overlap; `Err` with a lower bound on the distance if they
+    /// are beyond the limit.
     fn closest(&self, limit: f64) -> Result<Option<Closest2>, f32> {
         match self.convex.apart(limit) {
             Some(found) => found.map(|apart| Some(self.place.closest(&apart))),
@@ -78,8 +79,8 @@ impl Parts<'_> {
         }
     }
 
-    /// The same where they all but touch, or overlap. Out of line: with one copy more of what is asked there, contacts
-    /// took 1.08 times as long.
+    /// The same for parts that nearly touch, or overlap. Not inlined: with another copy of `probe`, contacts took 1.08
+    /// times as long.
     #[cold]
     #[inline(never)]
     fn look_closer(&self, limit: f64) -> Result<Option<Closest2>, f32> {

@@ -1,7 +1,7 @@
-//! Chains: whether and how far segments are from the parts of other bodies. Contacts stand in `contact`.
+//! Chains: overlap and separation of their segments and the parts of other bodies. Contacts are in `contact`.
 //!
-//! Every segment is a shape like any other, and asked about by the same kernels; the least counts, as of compounds. A
-//! tree of boxes along the chain leads to those that are near.
+//! Each segment is a shape like any other, tested by the same kernels; as for compounds, the least separation counts. A
+//! tree of boxes along the chain finds the segments that are near.
 
 mod contact;
 mod patches;
@@ -21,7 +21,7 @@ use asunder_geometry::{Aabb2, Chain, Shape2};
 use core::ops::ControlFlow;
 
 impl Pair2<'_> {
-    /// Whether a shape is ground.
+    /// Whether either shape is ground.
     #[inline]
     pub(crate) fn has_ground(&self) -> bool {
         self.shape_a.is_ground() || self.shape_b.is_ground()
@@ -41,13 +41,13 @@ impl Pair2<'_> {
         self.any_on_ground(false, |parts| parts.convex.guess())
     }
 
-    /// Whether any part overlaps a segment of a run that sees it.
+    /// Whether any part overlaps a segment of a run that it sees.
     pub(super) fn overlaps_seen(&self) -> bool {
         self.any_on_ground(true, |parts| parts.convex.verdict().overlapping)
     }
 
-    /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet. Two grounds
-    /// see each other from all sides.
+    /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet. Two
+    /// grounds see each other from all sides.
     fn any_on_ground(&self, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
         let only_seen = only_seen && !(self.shape_a.is_ground() && self.shape_b.is_ground());
         let near = |zone: &Zone, bounds: &Aabb2| zone.gap(bounds) <= 0.0;
@@ -78,7 +78,7 @@ impl Pair2<'_> {
         }
     }
 
-    /// Whether a segment's run is seen by a part: of one-sided ground, its front.
+    /// Whether a part sees a segment's run: it is in front of it, or the ground is not one-sided.
     fn is_seen(&self, (side, chain): (usize, &Chain), segment: u32, part: &Part) -> bool {
         let [chain_at, body_at] =
             if side == 0 { [DVec2::ZERO, self.between] } else { [self.between, DVec2::ZERO] };
@@ -87,7 +87,7 @@ impl Pair2<'_> {
         run.and_then(|run| Surface::new(chain, &run, (turn, chain_at), part.middle(body_at))).is_some()
     }
 
-    /// The segment and part with the least separation, or a bound where all are beyond the limit.
+    /// The segment and the part with the least separation, or a bound if all are beyond the limit.
     pub(super) fn nearest_on_ground(&self, limit: f64) -> Result<(Place, Near), f32> {
         let mut least = Least::within(limit);
         match (self.shape_a, self.shape_b) {
@@ -109,14 +109,15 @@ impl Pair2<'_> {
             }
             _ => {}
         }
-        // What no box was opened for is beyond the limit.
+        // Segments in boxes that were never opened are beyond the limit.
         least.give_up(round_down(limit));
         let ((place, mut near), error) = least.finish()?;
         near.error = error;
         Ok((place, near))
     }
 
-    /// Offers the segments of a chain that may be nearest to a part. Never breaks off.
+    /// Offers the segments of a chain that may be nearest to a part. Always returns false, so that all parts are
+    /// visited.
     fn nearest_segment(
         &self,
         side: usize,
@@ -144,14 +145,14 @@ impl Pair2<'_> {
                     Some((_, Probe::Beyond(at_least, _))) => least.give_up(at_least),
                     None => {}
                 }
-                // Of a half-plane, a box tells how deep it is, and the deepest is all that counts.
+                // For a half-plane, a box bounds the depth of its segments, and only the deepest counts.
                 if zone.is_endless() { deepest.min(least.reach()) } else { least.reach() }
             },
         );
         false
     }
 
-    /// A segment of the chain on one side of the pair, and a part of the other.
+    /// Passes a segment of the chain on one side of the pair, and a part of the other, to `ask`.
     fn with_segment<R>(
         &self,
         side: usize,
@@ -165,12 +166,12 @@ impl Pair2<'_> {
         Some(ask(self.ordered(side, Part::segment(segment, &shape, turn), other)))
     }
 
-    /// A part of the ground and one of the other body, A's first.
+    /// A part of the ground and one of the other body, in the order of A and B.
     fn ordered<'p>(&self, side: usize, ground: Part<'p>, other: Part<'p>) -> Parts<'p> {
         if side == 0 { self.parts(ground, other) } else { self.parts(other, ground) }
     }
 
-    /// Where a part of the body is, in the axes of the chain that is A (side 0) or B.
+    /// The zone of a part of the body, in the axes of the chain, which is A (side 0) or B.
     fn zone(&self, side: usize, part: &Part) -> Zone {
         let (chain, body) =
             if side == 0 { (&self.turn_a, &self.turn_b) } else { (&self.turn_b, &self.turn_a) };
@@ -182,12 +183,12 @@ impl Pair2<'_> {
 }
 
 impl<'p> Part<'p> {
-    /// A segment of a chain.
+    /// A segment of a chain as a part.
     fn segment(index: u32, shape: &'p Shape2, turn: &super::Turn) -> Self {
         Self { index, ..Self::whole(shape, turn) }
     }
 
-    /// Its centre relative to A's position; nothing for what has none.
+    /// The part's centre relative to A's position; `None` for a half-plane, which has none.
     fn middle(&self, body: DVec2) -> Option<DVec2> {
         (self.shape.outer_radius() < f32::INFINITY).then(|| body + self.center)
     }

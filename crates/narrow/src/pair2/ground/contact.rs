@@ -2,14 +2,14 @@
 //!
 //! ```text
 //! for each convex part of the body
-//!   for each straight run of the chain of which a segment is near, and which sees the part     (Surface)
-//!     ask the kernels how the part touches the run, as if it were one segment
-//!     what they say is the run's face or a corner of it: their points
-//!     it is a normal that the surface does not have: what of the part lies over the run       (over_edge)
+//!   for each straight run of the chain that has a segment near the part, and that the part sees     (Surface)
+//!     ask the kernels how the part touches the run, as if the run were one segment
+//!     their normal is that of the run's face, or of a corner: take their points
+//!     it is one that the surface does not have: take what of the part lies over the run        (over_edge)
 //!   one manifold for each normal                                                               (patches)
 //! ```
-//! A run in place of its segments is what keeps points and their names as a body slides; the segments themselves are
-//! asked only whether they overlap, exactly, and only where the run, which they lie within rounding of, leaves it open.
+//! Testing a run in place of its segments keeps points and their names as a body slides. The segments, which lie on
+//! their run up to rounding, are only tested for overlap, exactly, and only where the run leaves that open.
 
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
@@ -26,32 +26,32 @@ use asunder_geometry::tolerance::STRAIGHT;
 use asunder_geometry::{Chain, Run, Shape2};
 use core::ops::ControlFlow;
 
-/// One convex part, and the chain that it may stand on.
+/// A convex part, and the chain that it may stand on.
 struct Standing<'p> {
     pair: &'p Pair2<'p>,
     chain: &'p Chain,
     /// Which of the pair the chain is: 0 is A.
     side: usize,
     part: Part<'p>,
-    /// Metres within which points are wanted, and the same as the number that is told may be.
+    /// Points within this many metres are wanted; and the widest separation that rounds to so much.
     margin: f32,
     limit: f64,
 }
 
-/// What is known of whether a run's segments overlap the part.
+/// Whether a run's segments overlap the part, as far as it is known.
 #[derive(Clone, Copy)]
 enum Overlap {
     Told(bool),
-    /// By less than the segments lie beside the run: each has to be asked.
+    /// The separation is within what the segments may lie off the run: each has to be tested.
     Open,
 }
 
 impl Pair2<'_> {
-    /// Whether a body and ground that sees it overlap, if they are within the margin of each other. Manifolds are added
-    /// to a list.
+    /// Whether a body overlaps ground that it sees; `None` if they are further apart than the margin. Adds manifolds to
+    /// a list.
     pub(crate) fn contact_on_ground(&self, margin: f32, manifolds: &mut Vec<Manifold2>) -> Option<bool> {
         let (side, chain, shape, turn) = match (self.shape_a, self.shape_b) {
-            // Ground does not stand on ground.
+            // Two grounds have no contacts with each other.
             (Shape2::Chain(_), Shape2::Chain(_)) => return None,
             (Shape2::Chain(chain), shape) => (0, chain, shape, &self.turn_b),
             (shape, Shape2::Chain(chain)) => (1, chain, shape, &self.turn_a),
@@ -72,7 +72,7 @@ impl Pair2<'_> {
 }
 
 impl Pair2<'_> {
-    /// The same, and the deepest of the manifolds; of equals, the first.
+    /// The same, with the deepest of the manifolds; of equals, the first.
     pub(crate) fn deepest_on_ground(&self, margin: f32) -> (Option<bool>, Option<Manifold2>) {
         with_list(&MANIFOLDS2, |list| {
             let touch = self.contact_on_ground(margin, list);
@@ -93,7 +93,7 @@ impl Standing<'_> {
             let Some(run) = self.chain.run_of(segment) else { return ControlFlow::Continue(()) };
             let seen = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
             let overlap = seen.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
-            // Of a closed chain the last run may be the first one as well.
+            // The last run of a closed chain may be the first one again.
             known = [known[0].or(Some((run, overlap))), Some((run, overlap))];
             overlapping |= match overlap {
                 Overlap::Told(overlapping) => overlapping,
@@ -108,9 +108,9 @@ impl Standing<'_> {
         patches.finish(overlapping, self.margin).then_some(overlapping)
     }
 
-    /// Which boxes hold segments whose run may be within the limit.
+    /// Which boxes may hold segments of a run within the limit.
     fn is_near<'z>(&self, zone: &'z Zone) -> impl Fn(&asunder_geometry::Aabb2) -> bool + 'z {
-        // By how much segments may lie beside their run.
+        // How far segments may lie off their run.
         let limit = self.limit;
         let uneven = 4.0 * STRAIGHT * (zone.reach() + limit);
         move |bounds| {
@@ -124,8 +124,8 @@ impl Standing<'_> {
         }
     }
 
-    /// Whether a segment of a run overlaps the part, where that is what remains to tell who is deep in its face from
-    /// who is behind that, past its end.
+    /// Whether a segment of a run overlaps the part. Asked only where that must tell a part deep in the run's face from
+    /// one behind the face, past the run's end.
     fn is_overlapped(&self, run: &Run, overlap: &mut Overlap) -> bool {
         if let Overlap::Told(overlapping) = *overlap {
             return overlapping;
@@ -183,7 +183,7 @@ impl Standing<'_> {
                     let is_beyond = is_apart(&near, run) && over.is_behind();
                     !is_beyond && (!over.is_deep() || self.is_overlapped(run, &mut overlap))
                 });
-                // At a corner that is hardly one, rounding may see nothing over either face.
+                // At a corner that is almost straight, rounding may find nothing over either face.
                 let is_face = told == Told::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
             }
@@ -198,13 +198,13 @@ impl Standing<'_> {
 
 /// Whether there is a gap beyond rounding.
 ///
-/// What is over a run then is in front of it, or else behind it, having come past its end: of that the run has nothing
-/// to tell.
+/// If there is, what lies over the run is either in front of it, or behind it because it came past its end: no contact
+/// of the run.
 fn is_apart(near: &Near, run: &Run) -> bool {
     f64::from(near.separation) > f64::from(near.error) + run.unevenness()
 }
 
-/// Whether a run that is asked about as one segment tells of its own.
+/// What testing a run as one segment tells about overlap with its segments.
 fn overlap(near: &Near, run: &Run) -> Overlap {
     if run.unevenness() == 0.0 {
         Overlap::Told(near.verdict.overlapping)

@@ -1,4 +1,4 @@
-//! Manifolds on ground: what belongs to one normal is one.
+//! Manifolds on ground: all contact points of one normal make one manifold.
 
 use super::super::Place;
 use crate::answer::{ContactPoint2, Manifold2};
@@ -16,8 +16,8 @@ use asunder_geometry::tolerance::ONE_NORMAL;
 pub(super) struct Patch(Manifold2);
 
 impl Patch {
-    /// Points that a kernel made on the segment from a run's first vertex to its last, by the names of the chain.
-    /// `normal` leads from A to B; `side` is 0 where the chain is A. Nothing without points.
+    /// Contact points that a kernel made on the segment from a run's first vertex to its last, renamed after the
+    /// chain's features. `normal` leads from A to B; `side` is 0 where the chain is A. `None` without points.
     pub(super) fn new(
         (normal, points): (DVec2, &[Point]),
         (place, side): (&Place, usize),
@@ -49,7 +49,7 @@ impl Patch {
         };
         let [part_a, part_b] = place.indices;
         let mut points: ContactPoints<ContactPoint2, 2> = points.iter().map(point).collect();
-        // Where a closed chain comes back to its first vertex, what the kernel named later is named before.
+        // Where a closed chain comes back to its first vertex, the kernel's order of names is not the chain's.
         points.sort_unstable_by_key(|point| point.feature);
         let uneven = (run.unevenness() as f32).next_up();
         Some(Self(Manifold2 {
@@ -62,24 +62,24 @@ impl Patch {
         }))
     }
 
-    /// The same where the kernel's own separation is along another normal.
+    /// The same with the least separation of its points, since the kernel's is along another normal.
     pub(super) fn deep_by_its_points(mut self) -> Self {
         self.0.separation =
             self.0.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
         self
     }
 
-    /// Whether any of it is.
+    /// Whether any point is behind the surface.
     pub(super) fn is_behind(&self) -> bool {
         self.0.separation < 0.0
     }
 
-    /// Whether any of it is, by more than rounding.
+    /// Whether any point is behind the surface by more than rounding.
     pub(super) fn is_deep(&self) -> bool {
         self.0.separation < -self.0.error
     }
 
-    /// What of it is within a margin, if anything.
+    /// The points within a margin, if there are any.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
         let mut manifold = self.0;
         manifold.points.retain(|point| point.separation <= margin);
@@ -90,22 +90,22 @@ impl Patch {
 /// The manifolds of one convex part on ground.
 pub(super) struct Patches<'m> {
     manifolds: &'m mut Vec<Manifold2>,
-    /// Where the part's begin.
+    /// The index of the part's first manifold.
     first: usize,
-    /// What counts only where no point of all else is touched, though they overlap.
+    /// Used only if the shapes overlap but no other manifold has a point that touches.
     spare: Option<Manifold2>,
-    /// The chain's place among the two bodies.
+    /// Which of the two bodies the chain is: 0 is A.
     side: usize,
 }
 
 impl<'m> Patches<'m> {
-    /// Manifolds go to the end of a list.
+    /// Manifolds are appended to a list.
     pub(super) fn new(manifolds: &'m mut Vec<Manifold2>, side: usize) -> Self {
         let first = manifolds.len();
         Self { manifolds, first, spare: None, side }
     }
 
-    /// Adds points to the manifold of their normal. `preference` is how much deeper is deeper, in metres.
+    /// Adds points to the manifold of their normal. One point is deeper than another if it is by `preference` metres.
     pub(super) fn add(&mut self, Patch(next): Patch, preference: f64) {
         let is_alike =
             |known: &&mut Manifold2| (known.normal - next.normal).length_squared() <= ONE_NORMAL * ONE_NORMAL;
@@ -115,7 +115,7 @@ impl<'m> Patches<'m> {
         }
     }
 
-    /// Keeps a patch for the case that no other touches.
+    /// Keeps a patch, the deepest of such, in case no other one touches.
     pub(super) fn spare(&mut self, patch: Option<Patch>) {
         let Some(Patch(next)) = patch else { return };
         if self.spare.as_ref().is_none_or(|known| next.separation < known.separation) {
@@ -123,14 +123,14 @@ impl<'m> Patches<'m> {
         }
     }
 
-    /// Whether there is a contact within a margin of at least zero. The exact answer decides the signs.
+    /// Whether there is a contact within a margin of at least zero. The exact answer, `overlapping`, decides the signs.
     pub(super) fn finish(mut self, overlapping: bool, margin: f32) -> bool {
-        // Without a margin what shares no point has no contact, though rounding may take its points for touched.
+        // Without a margin, shapes that share no point have no contact, even if rounding shows a point as touching.
         if !overlapping && margin == 0.0 {
             self.manifolds.truncate(self.first);
             return false;
         }
-        // What a margin brings in takes nobody's place.
+        // Points that are only within the margin do not replace the spare patch.
         let is_touched = |own: &Manifold2| own.points.iter().any(|point| point.separation <= 0.0);
         if overlapping
             && !self.manifolds[self.first..].iter().any(is_touched)
@@ -150,8 +150,8 @@ impl<'m> Patches<'m> {
     }
 }
 
-/// Two patches of one normal: the two points that lie furthest apart, unless another is deeper. Then that one, and the
-/// one that is furthest from it.
+/// Merges two patches of one normal: keeps the two points furthest apart, unless another is deeper. Then it keeps that
+/// one, and the one furthest from it.
 fn merge(known: &mut Manifold2, next: &Manifold2, side: usize, preference: f32) {
     let mut points: ArrayVec<ContactPoint2, 4> = ArrayVec::new();
     for &point in known.points.iter().chain(&next.points) {
@@ -168,7 +168,7 @@ fn merge(known: &mut Manifold2, next: &Manifold2, side: usize, preference: f32) 
     known.part_a = known.part_a.min(next.part_a);
     known.part_b = known.part_b.min(next.part_b);
     let across = known.normal.perp();
-    // Relative to the body that stands: the chain's own anchors may be long.
+    // By the anchors on the body that stands on the chain: the chain's may be long.
     let place = |point: &ContactPoint2| across.dot(if side == 0 { point.anchor_b } else { point.anchor_a });
     points.sort_unstable_by_key(|point| point.feature);
     known.points = widest(&points, place, preference);
