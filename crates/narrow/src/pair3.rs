@@ -445,8 +445,8 @@ impl<'a> Pair3<'a> {
         apart - radii - 64.0 * f64::EPSILON * reach
     }
 
-    /// The lengths of the vectors that add up to the offset between two parts of compounds; zero for whole shapes,
-    /// whose offset is no sum.
+    /// The sum of the lengths of the vectors that add up to the offset between two parts of compounds; zero for whole
+    /// shapes, whose offset is a single vector.
     fn summed(&self, shift_a: DVec3, shift_b: DVec3) -> f64 {
         if self.is_compound() { self.between.length() + shift_a.length() + shift_b.length() } else { 0.0 }
     }

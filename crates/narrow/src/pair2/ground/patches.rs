@@ -105,7 +105,7 @@ impl<'m> Patches<'m> {
         Self { manifolds, first, spare: None, side }
     }
 
-    /// Adds points to the manifold of their normal. One point is deeper than another if it is by `preference` metres.
+    /// Adds points to the manifold of their normal. Differences in depth up to `preference` metres do not count.
     pub(super) fn add(&mut self, Patch(next): Patch, preference: f64) {
         let is_alike =
             |known: &&mut Manifold2| (known.normal - next.normal).length_squared() <= ONE_NORMAL * ONE_NORMAL;

@@ -1,5 +1,5 @@
-//! What is asked about a chain takes steps for what is near, however long the chain is; points are in order on all
-//! of it, and where nothing overlaps none is deep.
+//! Queries about a chain take steps only for what is near, however long the chain is; points are in order all along it;
+//! and where nothing overlaps, no point is deep.
 
 use crate::counted::steps_of;
 use crate::{Batch2, Hint, Job2, Manifold2, Pair2, cast_ray2, collide2};
@@ -53,7 +53,8 @@ fn a_million_segments_cost_what_a_thousand_do() {
     let ray = Ray2::new([7.1, 30.0], Vec2::new(0.2, -1.0)).unwrap();
     let (hit, steps) = steps_of(|| cast_ray2(&long, &Pose2::IDENTITY, &ray, f64::INFINITY));
     assert!(hit.is_some() && steps < 40, "{steps}");
-    // Of a half-plane below all of it, the depth is that of the lowest vertex, and not of all.
+    // Against a half-plane below the whole chain, the depth is that of the lowest vertex, and other segments are not
+    // visited.
     let pit: Shape2 = HalfPlane::new(Vec2::Y).unwrap().into();
     let lowest =
         Chain::open((0..100_000).map(|i| Vec2::new(i as f32, if i == 77_777 { -2.0 } else { 1.0 }))).unwrap();
@@ -94,7 +95,7 @@ fn where_a_closed_chain_comes_back_to_its_first_vertex_points_are_in_order_as_el
 
 #[test]
 fn what_an_uneven_run_is_not_touched_by_lies_in_none_of_its_faces() {
-    // To and fro along one line: rounding alone tells its segments from their run.
+    // To and fro along one line: the segments differ from their run by rounding alone.
     let heights = [0.462_495_57, 0.630_679_3, 0.924_028_46, 0.508_104_56, 0.789_357_1];
     let wall = heights.map(|height| Vec2::new(0.600_275_5, height));
     let ground = Chain::open(wall.into_iter().chain([Vec2::new(0.265_088_74, 0.789_357_1)])).unwrap();

@@ -6,7 +6,7 @@ use crate::polyhedron::convex::{Asked, Probe, Wanted};
 use asunder_geometry::Sphere;
 use asunder_geometry::glam::Quat;
 
-/// A cuboid, a sphere, and how they stand.
+/// A cuboid and a sphere, with their poses.
 #[derive(Debug)]
 struct Case {
     shapes: [Shape3; 2],
@@ -17,8 +17,8 @@ struct Case {
 }
 
 impl Case {
-    /// Centres inside, on faces, on the borders of what faces and edges are nearest to, on corners, in the middle, and
-    /// anywhere; spheres of no radius, rounded cuboids, bodies far from the origin, sizes of all kinds.
+    /// Centres inside, on faces, on the borders between nearest features, on corners, in the middle, and anywhere;
+    /// spheres of no radius, rounded cuboids, bodies far from the origin, sizes of all kinds.
     fn new(numbers: &mut Numbers) -> Self {
         let size = f64::from(1_u32 << numbers.below(24)) / 4096.0;
         let half = (numbers.vector().abs() * 0.8 + 0.2) * size;
@@ -58,7 +58,7 @@ impl Case {
         Pair3::new(&self.shapes[1], &self.poses[1], &self.shapes[0], &self.poses[0])
     }
 
-    /// Whether another feature of the cuboid, or another face from inside, is all but as near.
+    /// Whether another feature of the cuboid, or another face from inside, is nearly as near.
     fn is_on_a_border(&self) -> bool {
         let (mut over, slack) = ((self.center.abs() - self.half).to_array(), 1e-2 * self.half.max_element());
         if over.iter().any(|over| over.abs() < slack) {
@@ -105,7 +105,7 @@ fn the_closed_form_says_what_the_search_says() {
         assert!((found.normal.length() - 1.0).abs() < 2e-7);
         gaps += usize::from(found.separation > 0.0);
         inside += usize::from(case.center.abs().cmplt(case.half).all());
-        // On a border rounding decides, and faces are preferred there to what is hardly nearer.
+        // On a border rounding decides, and faces are preferred there to features that are hardly nearer.
         if !case.is_on_a_border() {
             named += 1;
             let manifold = pair.manifold(f32::MAX).unwrap();
@@ -132,7 +132,7 @@ fn the_general_path_tells_the_same_bits() {
             let manifold = pair.manifold(0.5);
             assert_eq!(manifold.is_some(), deepest.0.is_some(), "{case:?}");
             let (Some(mut one), Some(mut other)) = (manifold, deepest.0) else { continue };
-            // Points of the general path went there and back.
+            // Points of the general path were rotated there and back.
             for (one, other) in one.points.iter_mut().zip(&mut other.points) {
                 let reach = f64::from(pair.size()) * 1e-6;
                 assert!(one.anchor_a.distance(other.anchor_a) < reach as f32, "{one:?} {other:?}");
@@ -190,7 +190,7 @@ fn a_scene_of_another_size_has_the_same_answers() {
             let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
             let (one, other) = (measured(&case.pair()), measured(&pair));
             assert_eq!(one.normal, other.normal, "{case:?}");
-            // The least positive number has no size: it says that rounding tells no gap.
+            // The least positive number stands for a gap lost in rounding, and does not scale.
             let least = f32::from_bits(1);
             let scaled = if one.separation == least { least } else { one.separation * scale };
             assert_eq!(scaled, other.separation, "{case:?}");
@@ -224,7 +224,7 @@ fn touching_is_told_exactly_on_faces_edges_and_corners() {
     let half = DVec3::new(1.0, 2.0, 3.0);
     let cuboid = Shape3::from(Cuboid::from_half_extents(half.as_vec3()).unwrap());
     let at = Pose3::IDENTITY;
-    // Ways of whole length, out of a face, an edge and a corner.
+    // Vectors of whole length, out of a face, an edge and a corner.
     let ways = [([0.0, 5.0, 0.0], 5.0), ([3.0, 0.0, 4.0], 5.0), ([2.0, 3.0, 6.0], 7.0)];
     for (way, radius) in ways.map(|(way, radius)| (DVec3::from(way), radius)) {
         let sphere = Shape3::from(Sphere::new(radius).unwrap());
@@ -232,7 +232,7 @@ fn touching_is_told_exactly_on_faces_edges_and_corners() {
         for corner in 0..8 {
             let sign = |axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
             let signs = DVec3::new(sign(0), sign(1), sign(2));
-            // Some units of the last place nearer and further: less than f64 can tell after a rotation.
+            // Some units in the last place nearer and further: less than f64 can tell after a rotation.
             for (longer, overlapping) in
                 [(-8.0 * f64::EPSILON, true), (0.0, true), (8.0 * f64::EPSILON, false)]
             {

@@ -1,4 +1,4 @@
-//! Contact points of two cuboids, made side by side, against those of the general clipper, made one by one.
+//! Contact points of two cuboids, computed side by side, against those of the general clipper, computed one by one.
 
 use super::super::sat::tests::Random;
 use super::super::sat::{AxisOf, hint_to};
@@ -12,20 +12,20 @@ fn ids(manifold: &Manifold3) -> Vec<FeatureId> {
     manifold.points.iter().map(|point| point.feature).collect()
 }
 
-/// Twice the area that points span as seen along a normal, in any order.
+/// Twice the area that points span as projected along a normal, in any order.
 fn area(points: &[ContactPoint3], normal: Vec3) -> f32 {
     let at = |i: usize| points[i].anchor_a;
     let across =
         |i: usize, j: usize, k: usize, l: usize| (at(j) - at(i)).cross(at(l) - at(k)).dot(normal).abs();
     match points.len() {
-        // The diagonals are the two that make the most.
+        // The pairing with the largest area is that of the diagonals.
         4 => across(0, 1, 2, 3).max(across(0, 2, 1, 3)).max(across(0, 3, 1, 2)),
         3 => across(0, 1, 0, 2),
         _ => 0.0,
     }
 }
 
-/// Two cuboids, face near face, turned a little, much or not at all against each other.
+/// Two cuboids, face near face, rotated a little, much or not at all against each other.
 fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
     let shapes = halves.map(|half| Shape3::from(Cuboid::from_half_extents(half).unwrap()));
@@ -33,9 +33,9 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let (x, y) = (tilt * random.number(), tilt * random.number());
     let spin = Quat::from_xyzw(x, y, [random.number(), 0.0][round / 4 % 3 / 2], 1.0).normalize();
     let aside = Vec3::new(random.number(), random.number(), 0.0) * 0.7;
-    // Every third round a gap, of which the margin closes most.
+    // Every third round has a gap, mostly narrower than the margin.
     let lift = if round % 3 == 1 { 0.04 } else { -0.05 } * random.number().abs();
-    // And every fifth round a corner of one within some slacks of a side of the other.
+    // And every fifth round has a corner of one within some slacks of a side of the other.
     let beside = (halves[0].x - halves[1].x) + random.number() * 8e-6;
     let aside = if round % 5 == 2 { Vec3::new(beside, aside.y, 0.0) } else { aside };
     let above = aside + Vec3::Z * (halves[0].z + halves[1].z + lift);
@@ -45,8 +45,8 @@ fn pair(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     (shapes, poses, if round.is_multiple_of(2) { 0.0 } else { 0.03 })
 }
 
-/// Two cuboids, turned a little or much against each other, with two edges that cross over a gap, of which the margin
-/// closes most.
+/// Two cuboids, rotated a little or much against each other, with two edges that cross over a gap, mostly narrower than
+/// the margin.
 fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) {
     let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
     let tilt = [0.03, 0.09, 0.3, 1.0][round % 4];
@@ -61,8 +61,8 @@ fn crossed(random: &mut Random, round: usize) -> ([Shape3; 2], [Pose3; 2], f32) 
     (shapes, poses, 0.03)
 }
 
-/// Two cuboids by their rotations, so many metres apart along a normal where an edge of each is, at these places along
-/// its axis.
+/// Two cuboids by their rotations. One edge of each crosses the other, `gap` metres apart along a normal; `edges` are
+/// the edges' axes and where along those they cross.
 fn over_each_other(
     halves: [Vec3; 2],
     turns: [Quat; 2],
@@ -80,21 +80,21 @@ fn over_each_other(
     (shapes, poses.map(|(at, turn)| Pose3::new(at, turn.normalize()).unwrap()))
 }
 
-/// How pairs were told, and how that compared.
+/// Which kernels answered, and how that compared with the general path.
 #[derive(Debug, Default)]
 struct Compared {
-    /// By the number of points.
+    /// Manifolds by their number of points.
     points: [usize; 5],
     reduced: usize,
     same_four: usize,
-    /// Told across a gap by a face, and by edges: a point, or more.
+    /// Answered across a gap by a face, and by edges: with one point, or with more.
     across_faces: usize,
     across_edges: [usize; 2],
     leaning: usize,
 }
 
 impl Compared {
-    /// Of 8000 pairs.
+    /// Compares 8000 pairs.
     fn of(seed: u64, pair: impl Fn(&mut Random, usize) -> ([Shape3; 2], [Pose3; 2], f32)) -> Self {
         let (mut random, mut compared) = (Random(seed), Self::default());
         for round in 0..8000 {
@@ -103,7 +103,7 @@ impl Compared {
         compared
     }
 
-    /// What cuboids say by themselves, beside the general path.
+    /// Compares the cuboid kernels with the general path.
     fn hear(&mut self, round: usize, (shapes, poses, margin): ([Shape3; 2], [Pose3; 2], f32)) {
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
         let mut plain = Vec::new();
@@ -130,7 +130,7 @@ impl Compared {
             Contact::Touching(hint) if of_edges(hint) && room.points.len() > 2 => self.leaning += 1,
             _ => {}
         }
-        // Faces and edges that are even but for rounding may be chosen otherwise.
+        // Of faces and edges that are equal up to rounding, either may be chosen.
         if found.normal.dot(plain.normal) < 0.999_999 {
             let even = f64::from(found.separation - plain.separation).abs();
             assert!(even <= f64::from(found.error + plain.error), "round {round}: {found:?}, {plain:?}");
@@ -140,7 +140,7 @@ impl Compared {
         self.points[found.points.len()] += 1;
         if ids(found) == ids(plain) {
             for (one, other) in found.points.iter().zip(&plain.points) {
-                // Both are rounded to f32 at last; the numbers before that agree to some 1e-13.
+                // Both are rounded to f32 at the end; the numbers before that agree to some 1e-13.
                 let near = |p: Vec3, q: Vec3| f64::from((p - q).length()) <= 2e-7 * size;
                 let is_near = near(one.anchor_a, other.anchor_a) && near(one.anchor_b, other.anchor_b);
                 assert!(is_near, "round {round}: {one:?}, {other:?}");
@@ -148,7 +148,7 @@ impl Compared {
             }
             self.same_four += usize::from(found.points.len() == 4);
         } else {
-            // Of more than four corners any may be kept that are worth as much, but for two parts in a thousand.
+            // Of more than four corners any four that are worth as much may be kept, up to two parts in a thousand.
             let areas = [found, plain].map(|manifold| area(&manifold.points, manifold.normal));
             let is_reduced = found.points.len() == 4 && areas[0] >= 0.997 * areas[1];
             assert!(is_reduced, "round {round}: {areas:?}, {found:?}, {plain:?}");
@@ -178,13 +178,13 @@ fn about(axis: Vec3, angle: f32) -> Quat {
     Quat::from_vec4((axis * sin).extend(cos))
 }
 
-/// The rotation of a cuboid whose edges along one of its axes lead along x, rolled around them.
+/// The rotation of a cuboid that puts its edges along one of its axes along x, then rolls it about x.
 fn lying(axis: usize, roll: f32) -> Quat {
     about(Vec3::X, roll) * Quat::from_rotation_arc(Vec3::AXES[axis], Vec3::X)
 }
 
-/// What cuboids say by themselves of their contact across a gap, if they do, has the normal and the points of the
-/// general path; whether they do, and how many points there are.
+/// Checks that the cuboid kernels' contact across a gap, if they find one, has the normal and the points of the general
+/// path. Returns whether they do, and how many points there are.
 fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hint) -> Option<(bool, usize)> {
     const MARGIN: f32 = 0.03;
     let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
@@ -200,8 +200,8 @@ fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hin
     Some((is_told, plain.points.len()))
 }
 
-/// Edges that all but run along each other, or with their ends over each other alone, touch on both ends of what they
-/// share. The point where they cross would be one, and anywhere between those.
+/// Edges that nearly run along each other, or overlap only with their ends, touch at both ends of the stretch that they
+/// share. The point where they cross would be a single one, anywhere between those.
 #[test]
 fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     let mut random = Random(0x2B1D_7C45_E09A_6F33);
@@ -209,12 +209,12 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     for round in 0..4000 {
         let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
         let turn = random.turn(0).normalize();
-        // From parallel but for rounding to a third of a radian, with so much to share that the ends of it are a
-        // preference or so beside each other.
+        // From parallel up to rounding to a third of a radian. The shared stretch is so long that its ends are about a
+        // preference beside each other.
         let angle = libm::powf(10.0, -3.5 + 3.0 * random.number());
         let shared = (3e-6 / angle).min(0.2);
         let edges = [round % 3, round / 3 % 3];
-        // Not at the very end: there the general path may name the corner, as near but for rounding.
+        // Not at the very end: there the general path may name the corner, which is as near up to rounding.
         let mut end = |i: usize| halves[i][edges[i]] - shared * (0.1 + 0.9 * random.number().abs());
         let places = [end(0), -end(1)];
         let rolls = [0, 1].map(|_| 0.8 + 0.5 * random.number());
@@ -231,8 +231,8 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
     assert!(crossing > 300 && beside > 500, "{crossing} cross, {beside} lie side by side");
 }
 
-/// A face that parts cuboids by less than their edges do, but by no more than counts, is what they touch on; by twice
-/// as much where it was in the last frame.
+/// A face whose separation is less than that of two edges, but by no more than the preference, is what the cuboids
+/// touch on; by twice as much, if they did so in the last frame.
 #[test]
 fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path() {
     let mut random = Random(0x7D20_98F1_3C5B_A64E);
@@ -240,10 +240,10 @@ fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path
     for round in 0..4000 {
         let halves = [0, 1].map(|_| random.vector().abs() * 0.6 + 0.2);
         let turn = random.turn(0).normalize();
-        // How far the normal where edges cross leans from that of A's upper face, over its side ahead.
+        // How far the normal at the crossing leans from that of A's upper face, over its side ahead.
         let lean = libm::powf(10.0, -3.0 + 2.5 * random.number());
         let (across, edge) = (0.3 + 1.2 * random.number().abs(), round % 3);
-        // What of B's edge is beyond the side lies lower over the face than where it crosses.
+        // The part of B's edge beyond the side is lower over the face than the crossing.
         let beyond = (4e-6 / lean).min(0.1) * random.number().abs();
         let turns =
             [turn * lying(0, lean), turn * about(Vec3::Z, across) * lying(edge, 0.8 + 0.5 * random.number())];

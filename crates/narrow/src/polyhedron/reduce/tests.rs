@@ -5,7 +5,7 @@ use oorandom::Rand64;
 type Corner = ([f64; 2], f64);
 
 /// Share of the best area that counts as all of it: on either side of the diagonal, along it, and from root to root,
-/// the first of what is even is taken.
+/// the first of even candidates is taken.
 const ALL: f64 = 1.0 - 3.0 * EVEN_AREA;
 
 fn id(i: usize) -> FeatureId {
@@ -28,7 +28,7 @@ fn area_of(corners: &[Corner], mut four: [usize; 4]) -> f64 {
     area(&four.map(|i| corners[i].0))
 }
 
-/// The area of the best four of those that some filter allows, by all there are.
+/// The area of the best allowed four, by trying all sets.
 fn best_of_all(corners: &[Corner], is_allowed: impl Fn([usize; 4]) -> bool) -> f64 {
     let mut best = 0.0_f64;
     let count = corners.len();
@@ -46,7 +46,7 @@ fn best_of_all(corners: &[Corner], is_allowed: impl Fn([usize; 4]) -> bool) -> f
     best
 }
 
-/// As above without a filter, by all diagonals, for many corners.
+/// The same without a filter, by trying all diagonals, for many corners.
 fn best_by_diagonals(corners: &[Corner]) -> f64 {
     let count = corners.len();
     let mut best = 0.0_f64;
@@ -68,7 +68,8 @@ fn on_circle(parameter: f64) -> [f64; 2] {
     [(1.0 - slope * slope) * scale, 2.0 * slope * scale]
 }
 
-/// Corners clockwise on an ellipse, so that all are, in random places, stretched and turned; all as deep.
+/// Corners clockwise on an ellipse, so that all are corners of their hull: in random places, stretched and rotated, all
+/// equally deep.
 fn on_ellipse(random: &mut Rand64, count: usize) -> Vec<Corner> {
     let stretch = [1.0, 2.0, 10.0, 100.0][random.rand_range(0..4) as usize];
     let [cos, sin] = on_circle(random.rand_float() * 1.98 - 0.99);
@@ -126,7 +127,7 @@ fn one_that_is_deeper_is_kept_with_the_best_that_hold_it() {
     }
 }
 
-/// Of several that are as deep, the one with the lowest id may not be a corner of the best four.
+/// Of several that are equally deep, the one with the lowest id may not be a corner of the best four.
 #[test]
 fn any_of_several_that_are_as_deep_will_do() {
     let mut random = Rand64::new(4);
@@ -143,7 +144,8 @@ fn any_of_several_that_are_as_deep_will_do() {
         let (found, best) = (area_of(&corners, chosen), best_of_all(&corners, |_| true));
         let with_root = best_of_all(&corners, |four| four.contains(&root));
         assert!(found >= with_root * ALL, "{found} of {with_root}: {corners:?}");
-        // Where some four that have almost the area of the best hold a deep one, some of those are found.
+        // If the best four, or others with the same area, hold a deepest corner, the area found is within 5 % of
+        // theirs.
         if best_of_all(&corners, |four| four.into_iter().any(is_deep)) >= best {
             assert!(found >= 0.95 * best, "{found} of {best}: {corners:?}");
             better += usize::from(found > with_root * (1.0 + 1e-5));
@@ -152,7 +154,7 @@ fn any_of_several_that_are_as_deep_will_do() {
     assert!(better > 100, "{better}");
 }
 
-/// The middle of a trapezoid's longer side, deepest: the other three cannot have more than 2/3 with it.
+/// The deepest corner is the middle of a trapezoid's longer side: with it, no other three have more than 2/3.
 #[test]
 fn no_four_could_keep_more_with_the_middle_of_a_side() {
     let trapezoid = [[-2.0, 0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 0.0], [0.0, -1e-9]];
@@ -190,13 +192,14 @@ fn ties_go_the_same_way_whatever_rounding_says() {
     assert!(seen.contains(&[0, 3, 6, 9]), "the square of the lowest id: {seen:?}");
 }
 
-/// Caps with fours of the same area, which tremble: the same four, wherever the list begins and from either side.
+/// Caps with several fours of the same area, which tremble: the same four, wherever the list begins and from either
+/// side.
 #[test]
 fn which_four_is_a_matter_of_features_and_not_of_the_list() {
     let mut random = Rand64::new(6);
     for count in 5..40 {
         let cap = regular(count);
-        // Of a feature of the one shape and one of the other, whichever is asked for first.
+        // A feature of each shape; they change places with the shapes.
         let feature = |i: usize| [Feature::Face(3), Feature::Vertex((41 * i % count) as u32)];
         let mut seen = std::collections::BTreeSet::new();
         for round in 0..6 * count {
