@@ -232,8 +232,8 @@ impl<'a> Pair2<'a> {
     }
 
     /// One manifold for each pair of convex parts at most `margin` metres apart, in order of the parts: at most one
-    /// unless a shape is a compound. On a chain, one for each part of the other and each normal of what that touches,
-    /// of the chain's straight runs and corners; none of two chains.
+    /// unless a shape is a compound. On a chain, one for each part of the other shape and each normal of the straight
+    /// runs and corners that it touches; none for two chains.
     ///
     /// ```
     /// use asunder_geometry::{Compound2, HalfPlane, Pose2, Shape2, Circle, glam::Vec2};

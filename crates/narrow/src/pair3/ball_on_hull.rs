@@ -308,7 +308,7 @@ mod tests {
             .map(|[x, y, z]| Vec3::new(x as f32, y as f32, z as f32));
         let shape: Shape3 = Hull::from_points(&wedge).unwrap().into();
         let ball: Shape3 = Sphere::new(5.0).unwrap().into();
-        // A place, and a way of length 5 out from there.
+        // A place, and a vector of length 5 out from there.
         for (place, way) in [
             (DVec3::new(3.0, 3.0, 0.0), DVec3::Z * 5.0),
             (DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, -3.0, 4.0)),
@@ -318,8 +318,8 @@ mod tests {
         }
     }
 
-    /// The general path, which parts of compounds take, says the same: of hulls of few corners and of many, thin ones,
-    /// flat ones, rounded ones, and prisms, whose faces are flat up to rounding.
+    /// The general path, which parts of compounds take, gives the same answers: for hulls of few corners and of many,
+    /// thin ones, flat ones, rounded ones, and prisms, whose faces are flat up to rounding.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(80);
@@ -347,8 +347,8 @@ mod tests {
         assert!(counts.near > 2000 && counts.apart > 2000, "{counts:?}");
     }
 
-    /// Of hulls so thin that their sides are merged away, what is behind all faces may be beside them; and the centre
-    /// that radii are about, rounded to f32, may lie beside one without volume.
+    /// Beside a hull so thin that its sides are merged away, a point may be behind all faces and yet outside; and the
+    /// centre of the hull's radii, rounded to f32, may lie beside a hull without volume.
     #[test]
     fn what_is_behind_all_faces_of_a_thin_hull_may_be_beside_it() {
         let hull = |points: &[[f32; 3]]| {

@@ -117,7 +117,7 @@ mod tests {
     fn touching_is_exact_at_the_side_and_at_either_end() {
         let rod: Shape3 = Capsule3::from_half_height(2.0, 1.0).unwrap().into();
         let ball: Shape3 = Sphere::new(4.0).unwrap().into();
-        // Ways of whole length.
+        // Vectors of whole length.
         for way in [DVec3::new(3.0, 0.5, 4.0), DVec3::new(3.0, 6.0, 0.0), DVec3::new(0.0, -5.0, 4.0)] {
             let verdict = |longer: f64| {
                 let there = Pose3::at(way * DVec3::new(longer, 1.0, longer)).unwrap();
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// The general path, which parts of compounds take, says the same.
+    /// The general path, which parts of compounds take, gives the same answers.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(77);

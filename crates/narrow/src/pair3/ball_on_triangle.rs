@@ -85,7 +85,7 @@ mod tests {
     fn touching_is_exact_over_the_face_at_an_edge_and_at_a_corner() {
         let shape = triangle([DVec3::ZERO, DVec3::X * 12.0, DVec3::Y * 12.0]).unwrap();
         let ball: Shape3 = Sphere::new(5.0).unwrap().into();
-        // A place, and a way of length 5 out from there.
+        // A place, and a vector of length 5 out from there.
         for (place, way) in [
             (DVec3::new(3.0, 3.0, 0.0), DVec3::Z * -5.0),
             (DVec3::new(4.0, 0.0, 0.0), DVec3::new(0.0, -3.0, 4.0)),
@@ -106,7 +106,7 @@ mod tests {
         }
     }
 
-    /// The general path, which parts of compounds take, says the same; of needles, too, which it is left to.
+    /// The general path, which parts of compounds take, gives the same answers; also for needles, which are left to it.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(78);

@@ -307,14 +307,14 @@ pub(super) mod tests {
     use asunder_geometry::glam::Quat;
     use asunder_geometry::{Compound3, Sphere};
 
-    /// Checks that a pair says what the same pair does by the general path, with ends of points so near to each other,
-    /// as a share of a metre and of how far they are from their bodies; whether they are near enough for a point.
+    /// Checks that a pair gives the answers that the general path gives, with anchors within `near` of each other, as a
+    /// share of a metre plus their distance from the bodies. Returns whether the pair is near enough for a point.
     fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
         assert_eq!(whole.overlaps(), general.overlaps());
         let found = [whole, general].map(|pair| pair.separation(f32::INFINITY));
         let [Separation3::Measured(one), Separation3::Measured(other)] = found else { panic!("no limit") };
         assert!((one.separation - other.separation).abs() <= one.error + other.error);
-        // Over a face that is flat only up to rounding the general path may know its corners better.
+        // For a face that is flat only up to rounding, the general path may have tighter bounds on its corners.
         let slack = [whole.shape_a, whole.shape_b].map(|shape| match shape {
             Shape3::Hull(hull) => 5.0 * hull.planarity_error(),
             _ => 0.0,
@@ -350,13 +350,14 @@ pub(super) mod tests {
         pub(in crate::pair3) apart: u32,
     }
 
-    /// Any rotation, of any length.
+    /// Any rotation, as a quaternion of any length.
     pub(in crate::pair3) fn any_turn(numbers: &mut Numbers) -> Quat {
         let [v, w] = [numbers.vector(), numbers.vector()];
         Quat::from_xyzw(v.x as f32, v.y as f32, v.z as f32, w.x as f32)
     }
 
-    /// A pose, every third time far from the origin, and a place near it: by so much, or every other time by three.
+    /// A pose, every third time far from the origin, and a place near it: up to `near` away, or every other time up to
+    /// three.
     pub(in crate::pair3) fn pose_and_place(numbers: &mut Numbers, i: u32, near: f64) -> (Pose3, DVec3) {
         let far = if i.is_multiple_of(3) { 1e7 } else { 0.0 };
         let here = Pose3::new(numbers.vector() + DVec3::X * far, any_turn(numbers)).unwrap();
@@ -369,7 +370,7 @@ pub(super) mod tests {
         ball((0.1 + 0.5 * numbers.vector().y.abs()) as f32)
     }
 
-    /// Checks the same of a shape beside another, and of it as a part of a compound, in both orders.
+    /// Checks that a shape beside another gives the same answers as that shape as a part of a compound, in both orders.
     pub(in crate::pair3) fn says_as_a_part(
         (body, there): (&Shape3, &Pose3),
         (other, here): (&Shape3, &Pose3),
@@ -386,8 +387,8 @@ pub(super) mod tests {
         }
     }
 
-    /// Checks that a shape and one that a way of whole length, or of quarters, leads to, touch there, in both orders,
-    /// and nowhere beyond.
+    /// Checks that two shapes touch where the second is at `place + way`, in both orders, and not beyond. The length of
+    /// `way` is whole, or in quarters.
     pub(in crate::pair3) fn touch_exactly([shape, other]: [&Shape3; 2], place: DVec3, way: DVec3) {
         let verdict = |longer: f64| {
             let there = Pose3::at(place + way * longer).unwrap();
@@ -432,7 +433,7 @@ pub(super) mod tests {
         }
     }
 
-    /// The general path, which parts of compounds take, says the same.
+    /// The general path, which parts of compounds take, gives the same answers.
     #[test]
     fn parts_of_compounds_say_the_same() {
         let (mut near, mut apart) = (0, 0);

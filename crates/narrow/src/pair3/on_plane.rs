@@ -180,7 +180,7 @@ mod tests {
         })
     }
 
-    /// The general path, which parts of compounds take, says the same.
+    /// The general path, which parts of compounds take, gives the same answers.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(99);
@@ -200,7 +200,7 @@ mod tests {
         assert!(counts.near > 3000 && counts.apart > 2000, "{counts:?}");
     }
 
-    /// All corners of a cube on its floor, by whichever is B.
+    /// All corners of a cube on its floor touch, whichever of the two is B.
     #[test]
     fn a_cube_stands_on_four_corners() {
         let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();

@@ -146,8 +146,8 @@ mod tests {
         assert_eq!(points(&capsule(DVec3::Z * -2.0, DVec3::Z * 2.0, 0.5)).len(), 1);
     }
 
-    /// The general path, which parts of compounds take, says the same: of rods in any pose, that cross, and side by
-    /// side.
+    /// The general path, which parts of compounds take, gives the same answers: for rods in any pose, crossed, and side
+    /// by side.
     #[test]
     fn a_part_of_a_compound_says_the_same() {
         let mut numbers = Numbers::new(79);

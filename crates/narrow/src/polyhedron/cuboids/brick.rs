@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! spheres apart   start from the direction between the centres
-//! else            all fifteen axes at once: none separates them, or start from the face with the widest gap
+//! else            all fifteen axes at once: they overlap, or start from the face with the widest gap
 //! from there on   as for any two solids                                                                   (distance)
 //! ```
 //! No vertices or faces are built for it: the support point along a direction has the direction's signs, and a corner
@@ -20,7 +20,7 @@ use asunder_geometry::Basis3;
 use asunder_geometry::glam::DVec3;
 
 /// Which side of each of the three axes a corner is on. A table, because testing a corner's bits would be a branch each
-/// that nobody can predict, and a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
+/// that nobody can predict, and make a pair 1.6 times as slow (AMD EPYC, Zen 4, 2026-11-26).
 const SIDES: [DVec3; 8] = [
     DVec3::new(-1.0, -1.0, -1.0),
     DVec3::new(1.0, -1.0, -1.0),

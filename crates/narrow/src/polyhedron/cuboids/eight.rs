@@ -274,7 +274,7 @@ mod tests {
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Cuboid, Pose3};
 
-    /// Cuboids of all sizes near each other, some of them turned alike.
+    /// Cuboids of all sizes near each other, some of them with the same rotation.
     fn pairs() -> Vec<([Cuboid; 2], [Pose3; 2])> {
         let mut random = oorandom::Rand32::new(42);
         let mut number = |span: f32| (2.0 * random.rand_float() - 1.0) * span;
@@ -284,11 +284,12 @@ mod tests {
                 let cuboids = [half(), half()].map(|half| Cuboid::from_half_extents(half).unwrap());
                 let mut turn = || Quat::from_xyzw(number(1.0), number(1.0), number(1.0), number(1.0));
                 let turns = [if round % 8 == 5 { Quat::IDENTITY } else { turn() }, turn()];
-                // Some turned alike, or nearly so: then edges are parallel, or lose much.
-                // About the axis across the faces that touch below: then those edges' axes are that of the faces.
+                // Some have the same rotation, or nearly so: then edges are parallel, or lose much to rounding. The
+                // small rotation is about the normal of the faces that touch below: then those edges' axes equal the
+                // faces'.
                 let nearly = turns[0] * Quat::from_xyzw(0.0, 0.0, number(30.0).exp2().min(0.05), 1.0);
                 let turns = [turns[0], [turns[0], nearly, nearly, turns[1]][round % 4]];
-                // Half of them by a hair deep, face on face, where rounding weighs most.
+                // Half of them overlap by a hair, face on face, where rounding weighs most.
                 let beside = Vec3::new(number(4.0), number(4.0), number(4.0)).as_dvec3();
                 let [a, b] = cuboids.each_ref().map(Cuboid::half_extents);
                 let above = DVec3::new(beside.x * 0.1, beside.y * 0.1, f64::from(a.z + b.z) * (1.0 - 1e-7));

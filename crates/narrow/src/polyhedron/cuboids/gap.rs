@@ -74,7 +74,7 @@ impl Touching<'_> {
         let pair = placed.fifteen.best_edges()?;
         let normal = placed.edge_normal(pair);
         let least = placed.along(normal);
-        // A face that is nearly as good is asked for points first.
+        // A face that is nearly as good takes precedence: left to the general path.
         if least <= best.of_faces() + 2.0 * placed.preference {
             return None;
         }

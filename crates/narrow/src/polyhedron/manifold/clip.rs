@@ -23,7 +23,7 @@ const TIP_SLACKS: f64 = 4.0;
 
 /// A polygon being clipped. It is clockwise, since the face is seen from behind.
 ///
-/// Corners are created once and never moved: each side only rewrites a list of their indices. To copy a corner that was
+/// Corners are created once and never moved: each side only rewrites a list of their indices. Copying a corner that was
 /// just written, with wider loads than its stores, would stall until the stores have reached the cache.
 pub(super) struct Polygon<const N: usize> {
     corners: ArrayVec<Corner, N>,
