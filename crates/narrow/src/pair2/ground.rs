@@ -78,7 +78,7 @@ impl Pair2<'_> {
         }
     }
 
-    /// Whether a part sees a segment's run: it is in front of it, or the ground is not one-sided.
+    /// Whether a part sees a segment's run: the part is in front of the run, or the ground is not one-sided.
     fn is_seen(&self, (side, chain): (usize, &Chain), segment: u32, part: &Part) -> bool {
         let [chain_at, body_at] =
             if side == 0 { [DVec2::ZERO, self.between] } else { [self.between, DVec2::ZERO] };

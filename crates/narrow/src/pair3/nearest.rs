@@ -68,12 +68,12 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// Where parts of A must be to be so near to a part of B, or to B as a whole.
+    /// The region in which parts of A may be within a distance of a part of B, or of B as a whole.
     pub(super) fn around_b(&self, b: &Part, within: f64) -> Region3 {
         Region3 { center: self.between + b.center, radius: f64::from(b.shape.outer_radius()) + within }
     }
 
-    /// Where parts of B must be to be so near to a part of A, or to A as a whole.
+    /// The region in which parts of B may be within a distance of a part of A, or of A as a whole.
     pub(super) fn around_a(&self, a: &Part, within: f64) -> Region3 {
         Region3 { center: a.center - self.between, radius: f64::from(a.shape.outer_radius()) + within }
     }

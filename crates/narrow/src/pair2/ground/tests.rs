@@ -53,8 +53,7 @@ fn a_million_segments_cost_what_a_thousand_do() {
     let ray = Ray2::new([7.1, 30.0], Vec2::new(0.2, -1.0)).unwrap();
     let (hit, steps) = steps_of(|| cast_ray2(&long, &Pose2::IDENTITY, &ray, f64::INFINITY));
     assert!(hit.is_some() && steps < 40, "{steps}");
-    // Against a half-plane below the whole chain, the depth is that of the lowest vertex, and other segments are not
-    // visited.
+    // Against a half-plane below the whole chain, the depth is that of the lowest vertex, and few segments are visited.
     let pit: Shape2 = HalfPlane::new(Vec2::Y).unwrap().into();
     let lowest =
         Chain::open((0..100_000).map(|i| Vec2::new(i as f32, if i == 77_777 { -2.0 } else { 1.0 }))).unwrap();
