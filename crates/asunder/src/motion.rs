@@ -151,9 +151,9 @@ impl<S: Space> World<S> {
 
 /// The box around a body throughout its motion, rounded outwards.
 ///
-/// It is the box around both ends, grown by as much as the body may stick out in between. A point that turns is at R(t)
-/// v, and the boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v| from the first
-/// and w (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
+/// It is the box around both ends, grown by what may stick out in between. A point that turns is at R(t) v, and the
+/// boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v| from the first and w
+/// (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
 pub(crate) fn swept_bounds<S: Space>(body: &Collider<S>, motion: &S::Motion) -> S::Aabb {
     let turn_speed = S::turn_speed(motion, &body.pose);
     // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
