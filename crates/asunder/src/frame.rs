@@ -92,7 +92,7 @@ pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     world.stats.impacts = world.timed(impacts::impacts);
 }
 
-/// Runs both closures; on two threads, if there are any.
+/// Runs both closures, on two threads if possible.
 fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(one, other);

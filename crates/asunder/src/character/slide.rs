@@ -154,7 +154,8 @@ impl<S: Walks> Mover<'_, S> {
     /// Frees the shape of what it overlaps, or moves it away from what is closer than its skin. Returns the first pose
     /// at which it was free.
     ///
-    /// A way into such a wall may be shorter than the skin, so that no cast meets the wall. Hence it is noted here.
+    /// A character that goes into a wall by less than a skin meets nothing on the way, and is back here with the next
+    /// call: so that wall is noted here.
     fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let mut near = near(self.world, (self.shape, &self.pose), skin, &self.filter);

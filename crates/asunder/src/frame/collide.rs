@@ -205,7 +205,7 @@ struct Part<'c, S: Space> {
 }
 
 impl<S: Space> Part<'_, S> {
-    /// Works through the chunks: a single one, or either half, on two threads if there are any.
+    /// Works through the chunks: a single one, or both halves, on two threads if possible.
     fn work(self, asker: &Asker<'_, S>) {
         if self.settled.iter().all(Settled::is_quiet) {
             return;
