@@ -1,4 +1,4 @@
-//! Bodies come, go and change; what hangs on it is noted for the next update.
+//! Inserting, removing and changing bodies; what depends on them is marked for the next update.
 
 use crate::collider::{Collider, Tag};
 use crate::odometer::Odometer;
@@ -58,7 +58,7 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Gives a body another shape, and forgets what was learnt with the one before. What becomes ground is fixed, and
+    /// Gives a body another shape, and drops what is known from the old one. A body that becomes ground is fixed, and
     /// stays so.
     pub(crate) fn reshape_body(&mut self, key: S::Key, shape: S::Shape) -> Result<(), StaleKey> {
         let body = self.bodies.get_mut(key).ok_or(StaleKey)?;
@@ -73,7 +73,7 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// Makes another body of it, which has no motion yet, and gives back what it was.
+    /// Replaces the body, without a motion, and returns the old one.
     pub(crate) fn replace_body(
         &mut self,
         key: S::Key,
@@ -95,8 +95,8 @@ impl<S: Space> World<S> {
         note_slot(&mut self.reshaped, slot, self.keys.len());
     }
 
-    /// Changes what is neither shape nor pose. Its pairs are asked about anew, since whom it meets, and how, may be
-    /// another matter now.
+    /// Changes properties other than shape and pose. All pairs of the body go through the narrow phase again, since
+    /// whom it meets, and how, may have changed.
     pub(crate) fn change_body(
         &mut self,
         key: S::Key,
@@ -115,7 +115,7 @@ impl<S: Space> World<S> {
         Ok(())
     }
 
-    /// A body changed, and not by moving alone: all its pairs are asked about.
+    /// Marks a body that changed other than by moving: all its pairs go through the narrow phase.
     pub(crate) fn mark_changed(&mut self, slot: u32) {
         self.odometers[slot as usize] = Odometer::CHANGED;
         self.mark_dirty(slot);
@@ -129,8 +129,8 @@ impl<S: Space> World<S> {
     }
 }
 
-/// Adds one of so many slots to a list of some, in which it may be already: those that come again and again before an
-/// update take no room each time.
+/// Adds one of `slots` slots to a list, which may hold it already, without letting the list grow each time the same
+/// slots are added before an update.
 pub(crate) fn note_slot(list: &mut Vec<u32>, slot: u32, slots: usize) {
     if list.len() >= 2 * slots {
         list.sort_unstable();

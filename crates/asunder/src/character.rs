@@ -1,9 +1,9 @@
-//! Characters: shapes that a game moves by hand, among solids that they must not enter.
+//! Characters: shapes that a game moves itself, among solids that they must not enter.
 //!
 //! ```text
-//! free        out of what overlaps, by as little as may be
-//! slide       free, then cast by cast: go, and turn what is left along what is met; steps, and the ground below
-//! clip        which way is left between planes
+//! free        moves a shape out of what it overlaps, by as little as possible
+//! slide       free, then cast by cast: move, and turn the rest along what is met; steps, and the ground below
+//! clip        the vector nearest to a given one that goes into no plane
 //! plane, volume   vectors and the narrow phase, for both dimensions; the methods of both worlds
 //! ```
 //! Only `free` ever puts a shape somewhere that no cast led to, and only where it overlapped something before. All
@@ -190,29 +190,29 @@ pub type Slide2 = Slide<BodyKey2, Pose2, Vec2, DVec2>;
 /// How far a character in space came, and what it met.
 pub type Slide3 = Slide<BodyKey3, Pose3, Vec3, DVec3>;
 
-/// A vector of f64, as far as walking goes.
+/// An f64 vector, as far as characters need it.
 pub(crate) trait Linear:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self> + Neg<Output = Self>
 {
     const ZERO: Self;
     fn dot(self, other: Self) -> f64;
-    /// Which of two comes first, by x, then y, then z: no better than another order, but always the same.
+    /// An order of vectors, by x, then y, then z: arbitrary, but always the same.
     fn rank(self, other: Self) -> Ordering;
 
     fn length(self) -> f64 {
         self.dot(self).sqrt()
     }
 
-    /// Nothing for zero, and for what is not finite.
+    /// The unit vector; `None` for zero and for vectors that are not finite.
     fn unit(self) -> Option<Self> {
         let length = self.length();
         (length > 0.0 && length.is_finite()).then(|| self * (1.0 / length))
     }
 }
 
-/// A manifold as a plane that a shape may not go beyond.
+/// A manifold as a plane that a shape must not cross.
 pub(crate) struct Gap<P> {
-    /// Metres to it: below zero where they overlap, and zero where they touch.
+    /// The separation in metres: below zero where they overlap, and zero where they touch.
     gap: f64,
     /// Unit normal that leads away from the body.
     away: P,
@@ -222,8 +222,8 @@ pub(crate) struct Gap<P> {
     part: u32,
 }
 
-/// Whether a ray only leads along a plane, up to rounding, by how fast it closes in on it, and the two lengths that
-/// this is a product of.
+/// Whether a ray runs along a plane, up to rounding, by the dot product with the normal (`closing`) and the two lengths
+/// that enter it.
 pub(crate) fn is_along(closing: f64, lengths: [f64; 2]) -> bool {
     closing.abs() <= 64.0 * f64::EPSILON * lengths[0] * lengths[1]
 }
@@ -233,13 +233,13 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn wide(vector: Self::Vector) -> Self::Point;
     fn narrow(vector: Self::Point) -> Self::Vector;
     fn position(pose: &Self::Pose) -> Self::Point;
-    /// The pose moved; nothing if it would leave the world.
+    /// The moved pose; `None` if it would leave the world.
     fn moved(pose: &Self::Pose, by: Self::Point) -> Option<Self::Pose>;
     /// Unit directions all around, in an order that never changes.
     fn all_around(each: impl FnMut(Self::Point));
     /// The bounding radius of a shape.
     fn size(shape: &Self::Shape) -> f64;
-    /// What tells on which side of ground it is: the middle of each convex part's bounding ball.
+    /// The centre of each convex part's bounding ball, which decides on which side of ground the part is.
     fn middles(at: (&Self::Shape, &Self::Pose), each: impl FnMut(Self::Point));
     /// How far the shape reaches along a direction, from its position.
     fn reach(at: (&Self::Shape, &Self::Pose), along: Self::Point) -> Option<f64>;
@@ -252,13 +252,12 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     );
     /// Whether a body is solid from one side only.
     fn has_one_side(body: &crate::collider::Collider<Self>) -> bool;
-    /// Where a ray that starts on a body of ground first goes through some of it, within so many lengths: of what it
-    /// starts on, at once, if that has one side, and it leads in there. On what has two sides, who is on it may leave
-    /// to either.
+    /// Where a ray that starts on ground first goes through some of it, within `limit` lengths: at the start, if the
+    /// ground there is one-sided and the ray leads into it. From two-sided ground it may leave to either side.
     fn first_through(ray: &Self::Ray, limit: f64, body: &crate::collider::Collider<Self>) -> Option<f64>;
-    /// A ray, if it is one.
+    /// A ray, if it is a valid one.
     fn ray(origin: Self::Point, direction: Self::Point) -> Option<Self::Ray>;
-    /// The unit direction that lies in both planes, given by their normals; nothing where they are parallel, or in
-    /// the plane, where two lines share a point at most.
+    /// The unit direction that lies in both planes, given by their normals; `None` where they are parallel, and in 2D,
+    /// where two lines share a point at most.
     fn crease(one: Self::Point, other: Self::Point) -> Option<Self::Point>;
 }

@@ -36,8 +36,8 @@ impl Layers {
     }
 }
 
-/// What decides whether two bodies may pair at all, wherever they are: small, and apart from all else, since the
-/// broad phase asks for every pair of boxes that overlap.
+/// Decides whether two bodies may pair at all, wherever they are. Small, and stored apart from all else, since the
+/// broad phase reads it for every pair of overlapping boxes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tag {
     layers: Layers,
@@ -127,7 +127,7 @@ impl core::fmt::Display for SetMarginError {
 
 impl core::error::Error for SetMarginError {}
 
-/// A margin as it was given, if it can be one, in metres.
+/// Returns a margin, in metres, if it is a valid one.
 pub(crate) fn checked_margin(margin: f32) -> Result<f32, MarginError> {
     let is_margin = (0.0..=asunder_geometry::tolerance::MAX_RADIUS).contains(&margin);
     if is_margin { Ok(margin) } else { Err(MarginError { value: margin }) }

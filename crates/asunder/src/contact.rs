@@ -99,7 +99,7 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
     }
 }
 
-/// The one of two that another is not; nothing where it is neither.
+/// The other body of a pair; `None` if `body` is neither.
 pub(crate) fn other_of<K: PartialEq>((a, b): (K, K), body: K) -> Option<K> {
     match (a, b) {
         (a, b) if a == body => Some(b),
@@ -123,7 +123,7 @@ pub type Contact2<'a> = Contact<'a, BodyKey2, Manifold2>;
 /// A contact in space.
 pub type Contact3<'a> = Contact<'a, BodyKey3, Manifold3>;
 
-/// A pair of boxes that overlapped at the last update, and what was learnt about it.
+/// A pair whose boxes overlapped at the last update, and what is known about it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate<K> {
     pub(crate) pair: PairId,
@@ -133,11 +133,11 @@ pub(crate) struct Candidate<K> {
     pub(crate) persistent: u32,
     /// Its contact, if it has one.
     pub(crate) contact: ContactNumber,
-    /// Of bodies that are apart, until when they stay so: see `odometer`.
+    /// For bodies that are apart, the sum of their paths up to which they stay so: see `odometer`.
     pub(crate) until: f64,
 }
 
-/// The number of a candidate's contact among the records, if it has one, and whether that has begun: of most contacts
+/// The number of a candidate's contact among the records, if it has one, and whether that has begun. For most contacts
 /// that go on, nothing else of last update's is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ContactNumber(u32);
@@ -146,7 +146,7 @@ impl ContactNumber {
     /// No contact.
     pub(crate) const NONE: Self = Self(u32::MAX);
 
-    /// The highest bit: nobody has memory for as many records.
+    /// The highest bit, free since no memory holds as many records.
     const BEGUN: u32 = 1 << 31;
 
     pub(crate) const fn new(number: usize, begun: bool) -> Self {
@@ -165,9 +165,9 @@ impl ContactNumber {
     }
 }
 
-/// Where the manifolds of a contact stand: in the list of the chunk that the pair was in.
+/// Where the manifolds of a contact are: a range in the list of the chunk that the pair was in.
 ///
-/// Nobody moves them from there: see `frame::collide` for what that bought.
+/// They are never moved from there: see `frame::collide` for what that bought.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) chunk: u32,
@@ -176,7 +176,7 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// How many stand there.
+    /// How many there are.
     pub(crate) const fn count(&self) -> usize {
         (self.end - self.start) as usize
     }
@@ -194,13 +194,13 @@ pub(crate) struct Record<K> {
     /// Whether it has begun and not ended: its bodies overlapped at some update since the record appeared.
     pub(crate) begun: bool,
     pub(crate) is_new: bool,
-    /// Beyond the margins, and within what motions may bring.
+    /// Whether the bodies are beyond their margins, but a motion may bring them together.
     pub(crate) speculative: bool,
 }
 
 #[cfg(test)]
 impl<K: slotmap::Key> Record<K> {
-    /// A contact of nobody.
+    /// A contact of null keys.
     pub(crate) fn of_nobody(pair: PairId) -> Self {
         Self {
             pair,

@@ -1,10 +1,11 @@
-//! A world as it is, once more: what a clone has, and what it finds for itself.
+//! Copies of a world: what a clone takes over, and what stays its own.
 
 use crate::space::Space;
 use crate::world::{Scratch, World};
 use asunder_geometry::copied;
 
-/// Makes one world what another is, in the memory that it has. What no output depends on stays its own.
+/// Makes one world equal to another, in the memory that it has. Working memory, on which no output depends, stays its
+/// own.
 pub(crate) fn copy<S: Space>(from: &World<S>, to: &mut World<S>) {
     copied!(from => to, of World {
         bodies, keys, boxes, tags, dirty, is_dirty, moved, is_moved, reshaped, odometers, motions, max_pairs, questions,

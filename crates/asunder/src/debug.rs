@@ -51,12 +51,12 @@ impl Default for DebugOptions {
 }
 
 impl DebugOptions {
-    /// Half of the side of a patch; nothing for a NaN.
+    /// Half of the side of a patch; zero for a NaN.
     fn half_patch(&self) -> f64 {
         if self.endless > 0.0 { f64::from(self.endless.min(tolerance::MAX_RADIUS)) } else { 0.0 }
     }
 
-    /// Length of a normal; nothing for a NaN. A negative one has always been drawn the other way.
+    /// Length of a normal; zero for a NaN. A negative one turns the normal around.
     fn length_of_normal(&self) -> f64 {
         let most = tolerance::MAX_RADIUS;
         if self.length.is_nan() { 0.0 } else { f64::from(self.length.clamp(-most, most)) }
@@ -118,16 +118,16 @@ impl DebugLine {
     }
 }
 
-/// An arc of at most half a circle is halved so often: a quarter circle is off by at most 0.5 % of its radius.
+/// How often an arc of at most half a circle is halved: a quarter circle is then off by at most 0.5 % of its radius.
 const HALVINGS: u32 = 3;
 
-/// Whether a line has a point in a box. Its own box would not do: that of a line of turned ground overlaps regions that
-/// no triangle of the line's comes near, and ground is only looked at where a region is.
+/// Whether a line has a point in a box. Testing the line's own box is not enough: with ground that is turned, it
+/// overlaps regions that none of the line's triangles comes near, and only the ground near a region is drawn.
 fn reaches_into<const N: usize>([low, high]: [[f64; N]; 2], [from, to]: [[f64; N]; 2]) -> bool {
     let mut within = [0.0_f64, 1.0];
     for axis in 0..N {
         let (low, high, start, end) = (low[axis], high[axis], from[axis], to[axis]);
-        // Nothing is in a box that is no number.
+        // A box with a NaN contains nothing.
         if !(start.min(end) <= high && start.max(end) >= low) {
             return false;
         }

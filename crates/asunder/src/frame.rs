@@ -2,19 +2,19 @@
 //!
 //! # The determinism contract, stage by stage
 //! Equal operations give bit-equal outputs: at any thread count, in debug and in release.
-//! 1. **refit**: a box is a function of one body alone.
+//! 1. **refit**: a box is a function of its body alone.
 //! 2. **sweep**: the pair list is a function of boxes and filters alone, sorted by pair, whatever is kept between
 //!    updates.
-//! 3. **collide**: an answer is a function of one job; chunks of pairs are cut by counts, or where they were cut last
+//! 3. **collide**: an answer is a function of one job. Chunks of pairs are cut by counts, or where they were cut last
 //!    time, never by thread, and are put together in order. A hint can save work, and choose among features that are
 //!    equally good up to rounding. Where the bodies hardly drifted since their manifold was made, it is moved along,
-//!    within its error. Where neither body moved, or they were apart by more than they went since, the answer is last
-//!    update's. What was before is found by walking two lists sorted by pair, side by side.
-//! 4. **merge**: what the chunks found, in their order.
+//!    within its error. Where neither body moved, or they were further apart than they have moved since, the answer is
+//!    last update's. Last update's answers are found by walking two lists sorted by pair, side by side.
+//! 4. **merge**: the chunks' results, in their order.
 //! 5. **report**: events in pair order.
 //!
-//! Hooks are asked by one thread, in pair order: who may pair after the sweep, what to make of a contact after the
-//! report. What bullets run into comes last, a function of one pair and of what the bullet touches, and sorted.
+//! Hooks are called by one thread, in pair order: the pair hook after the sweep, the contact hook after the report.
+//! What bullets run into comes last: a function of one pair and of what the bullet touches, sorted.
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
@@ -76,8 +76,8 @@ impl<S: Space> World<S> {
 /// The stages, one after the other.
 pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     let Stats { candidates, contacts, overlapping, manifolds, .. } = world.stats;
-    // If a hook panics, last update's events and impacts must not be taken for this one's; candidates and contacts are,
-    // and so are their counts.
+    // If a hook panics, last update's events and impacts must not pass for this one's. Candidates and contacts stay,
+    // and so do their counts.
     world.events.clear();
     world.impacts.clear();
     world.mark_kept_motions();
@@ -92,7 +92,7 @@ pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     world.stats.impacts = world.timed(impacts::impacts);
 }
 
-/// One and the other; on two threads where there are.
+/// Runs both closures, on two threads if possible.
 fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(one, other);

@@ -1,8 +1,8 @@
-//! What a game may say during an update: who pairs at all, and what a contact is worth.
+//! Callbacks of a game during an update: who may pair at all, and edits of contacts.
 //!
-//! A hook sees what the engine found and decides what comes of it; it never sees half a frame. Hooks are asked in
-//! pair order, and their answers for one update are not remembered in the next: what they left out is found again,
-//! and what they edited is edited anew from what the narrow phase said.
+//! A hook sees what the engine found and decides what becomes of it; it never sees half a frame. Hooks are called in
+//! pair order, and their answers are not remembered in the next update: pairs they left out are found again, and edits
+//! start anew from the narrow phase's result.
 
 use crate::collider::Collider;
 use crate::contact::Record;
@@ -51,10 +51,10 @@ pub type Meeting2<'a> = Meeting<'a, Plane>;
 /// A contact in space that a hook may edit.
 pub type Meeting3<'a> = Meeting<'a, Volume>;
 
-/// Asked of every pair whose boxes overlap and whose layers and owners agree.
+/// Called for every pair whose boxes overlap and whose layers and owners agree.
 type Pairing<'a, S> = dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync + 'a;
 
-/// Asked of every contact that has manifolds.
+/// Called for every contact that has manifolds.
 type Editing<'a, S> = dyn Fn(Meeting<'_, S>) + Sync + 'a;
 
 /// The hooks of one update: see [`World::update_with`].
@@ -145,7 +145,7 @@ impl<S: Space> Debug for Hooks<'_, S> {
     }
 }
 
-/// What a contact hook made of the manifolds: of each record, where its own end.
+/// The manifolds as a contact hook left them, and where those of each record end.
 #[derive(Debug)]
 pub(crate) struct Edited<S: Space> {
     manifolds: Vec<S::Manifold>,
@@ -155,7 +155,7 @@ pub(crate) struct Edited<S: Space> {
 asunder_geometry::copied!(Edited<S>, for [S: Space], { manifolds, ends } but {});
 
 impl<S: Space> Edited<S> {
-    /// From a list a record.
+    /// From one list per record.
     #[cfg(feature = "serde")]
     pub(crate) fn of_lists(lists: &[Vec<S::Manifold>]) -> Self {
         let mut edited = Self { manifolds: Vec::new(), ends: Vec::new() };
@@ -178,11 +178,11 @@ impl<S: Space> Edited<S> {
     }
 }
 
-/// Leaves out the pairs that the hook refuses.
+/// Removes the pairs that the hook rejects.
 pub(crate) fn refuse_pairs<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     let Some(may_meet) = hooks.pair else { return };
     let World { bodies, keys, records, scratch, .. } = world;
-    // If the hook panics, contacts stay, and what of them is new was told with the events of before.
+    // If the hook panics, contacts stay, and the events of the new ones were reported before.
     records.all_mut().for_each(|record| record.is_new = false);
     let side = |slot: u32| {
         let key = keys[slot as usize];
@@ -194,7 +194,7 @@ pub(crate) fn refuse_pairs<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>)
     });
 }
 
-/// Hands every contact with manifolds to the hook, on a copy of its own.
+/// Calls the hook for every contact with manifolds, on a copy of these.
 pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     if world.stats.overflow {
         world.stats.manifolds = world.edited.as_ref().map_or(world.stats.manifolds, Edited::len);
@@ -209,7 +209,7 @@ pub(crate) fn edit_contacts<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>
     edited.ends.clear();
     for (number, record) in records.iter() {
         let Record { keys, manifolds: place, overlapping, is_new, speculative, .. } = record;
-        // Numbers that no record has, have none.
+        // Numbers without a record get no manifolds.
         edited.ends.resize(number, edited.manifolds.len() as u32);
         let found = manifolds_at(place, answered);
         if let (false, Some(a), Some(b)) = (found.is_empty(), bodies.get(keys.0), bodies.get(keys.1)) {

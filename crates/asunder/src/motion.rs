@@ -44,10 +44,10 @@ pub type Hit2 = Hit<BodyKey2, Impact2>;
 /// What a bullet runs into in space.
 pub type Hit3 = Hit<BodyKey3, Impact3>;
 
-/// The motions that the next update will see.
+/// The motions for the next update.
 #[derive(Debug)]
 pub(crate) struct Motions<S: Space> {
-    /// By slot; shorter than the slots where the last ones have none.
+    /// By slot; shorter than the slots if the last ones have none.
     of_slot: Vec<Option<S::Motion>>,
     /// Slots that have one, or had one and lost it with their body.
     slots: Vec<u32>,
@@ -64,7 +64,7 @@ impl<S: Space> Motions<S> {
         self.of_slot.get(slot as usize).copied().flatten()
     }
 
-    /// Whether nobody has one.
+    /// Whether there are none.
     #[inline]
     pub(crate) fn is_empty(&self) -> bool {
         self.slots.is_empty()
@@ -79,7 +79,7 @@ impl<S: Space> Motions<S> {
         slots.into_iter().map(|slot| (slot, self.of(slot))).collect()
     }
 
-    /// What a list says, whose slots have been checked.
+    /// The motions of such a list, whose slots have been checked.
     #[cfg(feature = "serde")]
     pub(crate) fn of_list(list: &[(u32, Option<S::Motion>)]) -> Self {
         let mut motions = Self::NONE;
@@ -122,15 +122,15 @@ impl<S: Space> World<S> {
         let slot = if self.bodies.contains_key(bullet) { slot_of(bullet) } else { u32::MAX };
         let before = self.impacts.partition_point(|hit| slot_of(hit.bullet) < slot);
         let later = &self.impacts[before..];
-        // A reused slot was another bullet's then, and the other body may have been removed since.
+        // The slot may have been another bullet's then, and the other body may have been removed since.
         later
             .iter()
             .take_while(move |hit| hit.bullet == bullet)
             .filter(|hit| self.bodies.contains_key(hit.other))
     }
 
-    /// Motions that an update before has seen, and did not get to the end with: a hook panicked. All pairs of these
-    /// bodies are looked at once more.
+    /// Marks the bodies whose motions are left over from an update that did not finish, since a hook panicked: all
+    /// their pairs are processed again.
     pub(crate) fn mark_kept_motions(&mut self) {
         for index in 0..self.motions.slots.len() {
             let slot = self.motions.slots[index];
@@ -140,7 +140,7 @@ impl<S: Space> World<S> {
         }
     }
 
-    /// After an update the motions are history, and the boxes around them too wide.
+    /// Drops the motions after an update, and marks the boxes around them, which are too wide now.
     pub(crate) fn forget_motions(&mut self) {
         while let Some(slot) = self.motions.slots.pop() {
             self.motions.forget(slot);
@@ -151,9 +151,9 @@ impl<S: Space> World<S> {
 
 /// The box around a body throughout its motion, rounded outwards.
 ///
-/// It is that around both ends, grown by what may stand out in between. A point that turns is at R(t) v, and the boxes
-/// hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v| from the first and w (1 - t) |v|
-/// from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
+/// It is the box around both ends, grown by what may stick out in between. A point that turns is at R(t) v, and the
+/// boxes hold (1 - t) R(0) v + t R(1) v. With w the speed, R(t) v is no further than w t |v| from the first and w
+/// (1 - t) |v| from the second, and so 2 t (1 - t) w |v| from their mean: at most half of w |v|.
 pub(crate) fn swept_bounds<S: Space>(body: &Collider<S>, motion: &S::Motion) -> S::Aabb {
     let turn_speed = S::turn_speed(motion, &body.pose);
     // Rotations in between are rounded to f32 at times, by less than 1.2e-7.
@@ -163,7 +163,8 @@ pub(crate) fn swept_bounds<S: Space>(body: &Collider<S>, motion: &S::Motion) -> 
     S::union(&around(&body.pose), &around(&S::end(motion, &body.pose)))
 }
 
-/// By how many metres at most two bodies come nearer to each other in their motions; no more than a margin may be.
+/// The most by which two bodies may come nearer to each other in their motions, in metres; capped at the greatest
+/// margin.
 pub(crate) fn approach<S: Space>(bodies: [&Collider<S>; 2], motions: [Option<S::Motion>; 2]) -> f32 {
     let mut most = S::drift(motions);
     for (body, motion) in bodies.into_iter().zip(motions) {
@@ -173,9 +174,9 @@ pub(crate) fn approach<S: Space>(bodies: [&Collider<S>; 2], motions: [Option<S::
     rounded_up(most).min(tolerance::MAX_RADIUS)
 }
 
-/// How far a point within `reach` comes by turning, in metres: `share` of the reach, and at most twice the reach.
+/// How far a point within `reach` may move by turning, in metres: `share` of the reach, and at most twice the reach.
 fn swing(turn_speed: f64, share: f64, reach: f64) -> f64 {
-    // What does not turn has no share of a reach that may be infinite.
+    // Without turning it is zero, even if the reach is infinite.
     if turn_speed > 0.0 { share.min(2.0) * reach } else { 0.0 }
 }
 

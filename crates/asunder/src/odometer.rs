@@ -1,60 +1,61 @@
-//! How far bodies went, so that pairs far enough apart need no look at either.
+//! How far bodies have moved, so that pairs far enough apart can be skipped without reading either body.
 //!
 //! ```text
-//! two bodies are apart by more than their margins, and by `beyond` at least, when both have gone s together
-//! no point of either has come nearer to the other than they have gone since
-//! while they have gone less than s + beyond together, they are apart, whatever their ways
+//! two bodies are further apart than their margins, by at least `beyond`, when the sum of their paths is s
+//! since then they have come nearer by no more than the sum of their paths has grown
+//! while that sum is less than s + beyond, they are still apart, whatever their paths
 //! ```
-//! Bodies that rest a few millimetres from each other, and tremble, are asked about once in thousands of frames; so is
-//! who passes by at a distance, as long as the distance allows. One number a body and one a pair, and no pose is read.
+//! So bodies that rest a few millimetres from each other, and tremble, go through the narrow phase once in thousands of
+//! frames; a body that passes by at a distance, as seldom as the distance allows. It takes one number a body and one a
+//! pair, and no pose is read.
 
-/// What a body went since it last changed otherwise, in metres.
+/// How far a body has moved since it last changed otherwise, in metres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Odometer {
-    /// Infinite from when it changed until the next update: all its pairs are asked about.
+    /// Infinite from a change until the next update, so that all its pairs go through the narrow phase.
     travel: f64,
-    /// Of that, since the last update.
+    /// The part of it since the last update.
     step: f64,
 }
 
 impl Odometer {
-    /// Of a body that is new, or not what it was.
+    /// Of a body that is new, or has changed.
     pub(crate) const CHANGED: Self = Self { travel: f64::INFINITY, step: f64::INFINITY };
 
-    /// One that counts from what was saved; nothing of what none says.
+    /// One that continues from saved numbers; `None` if no odometer can show them.
     #[cfg(feature = "serde")]
     pub(crate) fn restored(travel: f64, step: f64) -> Option<Self> {
         let is_sound = travel.is_finite() && travel >= 0.0 && (0.0..=travel).contains(&step);
         is_sound.then_some(Self { travel, step })
     }
 
-    /// What both count, to be saved; nothing while it has changed.
+    /// Both numbers, to be saved; `None` while it counts as changed.
     #[cfg(feature = "serde")]
     pub(crate) fn saved(self) -> Option<(f64, f64)> {
         self.travel.is_finite().then_some((self.travel, self.step))
     }
 
-    /// Whether it changed since the last update, and not by moving alone.
+    /// Whether the body has changed since the last update other than by moving.
     #[inline]
     pub(crate) fn has_changed(self) -> bool {
         !self.travel.is_finite()
     }
 
-    /// It went so far.
+    /// Adds a movement.
     #[inline]
     pub(crate) fn go(&mut self, metres: f64) {
-        // Rounded up: what is lost in adding may not be lost in sum.
+        // Rounded up, so that many small steps never add up to too little.
         self.travel = (self.travel + metres).next_up();
         self.step = (self.step + metres).next_up().min(self.travel);
     }
 
-    /// All its pairs have been asked about.
+    /// Ends an update, in which all its pairs were processed.
     #[inline]
     pub(crate) fn close(&mut self) {
         *self = Self { travel: self.counted(), step: 0.0 };
     }
 
-    /// Since the last update.
+    /// How far it has moved since the last update.
     #[inline]
     pub(crate) fn step(self) -> f64 {
         self.step
@@ -66,18 +67,18 @@ impl Odometer {
         if self.travel.is_finite() { self.travel } else { 0.0 }
     }
 
-    /// The sum of both bodies' ways up to which they stay apart that are now `beyond` metres further apart than they
-    /// need to be.
+    /// The sum of both bodies' paths up to which they stay apart, if they are now `beyond` metres further apart than
+    /// their margins.
     #[inline]
     pub(crate) fn until([a, b]: [Self; 2], beyond: f32) -> f64 {
         (a.counted() + b.counted() + f64::from(beyond)).next_down().next_down()
     }
 
-    /// Whether they have not gone as far together.
+    /// Whether the sum of their paths is still below that.
     #[inline]
     pub(crate) fn are_before([a, b]: [Self; 2], until: f64) -> bool {
-        // The next number up, of one that is not negative: past infinity there is none, which is before nothing.
-        // `next_up` asks for more, and this is asked of each candidate.
+        // The next number up from one that is not negative; after infinity comes NaN, which compares as false.
+        // `next_up` checks more, and this runs for each candidate.
         let ways = a.travel + b.travel;
         f64::from_bits(ways.to_bits().wrapping_add(1)) < until
     }

@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! index       which boxes a query is about, nearest first, from two trees and a list
-//! walk        box after box: filter, the narrow phase, the box around the body as it stands; the best, all, or whatever comes
-//! questions   each as the boxes that it is about and what it asks of a body
-//! space       the narrow phase's part, for the plane and for space
-//! answer      what is told
+//! walk        for each box: filter, narrow phase, the box around the body as it stands; the best answer, all, or each
+//! questions   each query as a set of boxes and what it asks of a body
+//! space       the narrow phase's part, in the plane and in space
+//! answer      the answers' types
 //! ```
 //! The methods themselves stand in `ask2.rs` and `ask3.rs`, and those along a way beside them, in plain types.
 //!

@@ -1,10 +1,11 @@
-//! What is known of pairs, sorted by pair, in chunks: the candidates of an update, and the contacts among them.
+//! Candidates of an update and the contacts among them, sorted by pair, in chunks.
 //!
-//! A list in one piece would be written twice: nobody knows where a chunk's contacts go before all others are counted.
-//! Tried: putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22).
+//! A list in one piece would be written twice: where a chunk's contacts go is known only when those of all chunks
+//! before it are counted. Tried: putting 30,000 of them together took 7 % of the frame (AMD EPYC, Zen 4, 2 virtual
+//! cores, 2026-11-22).
 //!
-//! Chunks go on from one update to the next, as long as none grows too large. So a chunk of which nothing moved is what
-//! it was, and is not looked at: see `frame::collide`.
+//! Chunks persist from one update to the next, as long as none grows too large. So a chunk in which nothing moved can
+//! be skipped: see `frame::collide`.
 
 use crate::contact::{Candidate, Record};
 use asunder_broad::PairId;
@@ -15,23 +16,23 @@ pub(crate) const CHUNK: usize = 1024;
 /// How many chunks there are at most, unless each would hold more than [`CHUNK`].
 const MANY: usize = 96;
 
-/// Fewest pairs in a chunk, but for the last, where hardly any is asked about.
+/// Fewest pairs in a chunk, except the last, where hardly any needs the narrow phase.
 const FEW: usize = 256;
 
-/// Most pairs in a chunk, of so many, where of last update's so many were asked about: enough chunks to share out, and
-/// no more. Each has lists of its own, and begins with waiting for each of them: some 3 us (AMD EPYC, Zen 4,
-/// 2026-11-23).
+/// Most pairs in a chunk, for so many pairs in all, when `asked` of last update's went through the narrow phase: enough
+/// chunks to share out, and no more. Each has lists of its own, and begins with waiting for each of them: some 3 us
+/// (AMD EPYC, Zen 4, 2026-11-23).
 ///
-/// To ask takes some ten times as long as all else: a crowd has 1,300 pairs, all of them asked about, and in chunks of
-/// 256 they took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual cores,
-/// 2026-11-26); where few are, 64 pairs are not worth a chunk (boxes at rest 8 % slower). Who comes to rest leaves the
-/// lists of both kinds behind. Never by the number of threads.
+/// The narrow phase takes some ten times as long as all else: a crowd has 1,300 pairs, all of which need it, and in
+/// chunks of 256 they took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual
+/// cores, 2026-11-26); where few need it, 64 pairs are not worth a chunk (boxes at rest 8 % slower). Bodies that come
+/// to rest leave the lists of both sizes behind. Never by the number of threads.
 pub(crate) fn chunk_of(pairs: usize, asked: usize) -> usize {
     let few = if asked > pairs / 4 { FEW / 2 } else { FEW };
     pairs.div_ceil(MANY).next_multiple_of(few).clamp(few, CHUNK)
 }
 
-/// What is about one pair.
+/// Something that belongs to one pair.
 pub(crate) trait OfPair {
     fn pair(&self) -> PairId;
 }
@@ -50,12 +51,13 @@ impl<K> OfPair for Record<K> {
     }
 }
 
-/// A list in pair order. Each of it has a number, ascending: its chunk's, times [`CHUNK`], and its place there.
+/// A list in pair order. Each element has a number, ascending: that of its chunk, times [`CHUNK`], plus its place
+/// there.
 #[derive(Debug)]
 pub(crate) struct Chunked<T> {
-    /// The least pair that a chunk may hold, of each in use. The first holds what is before it, too.
+    /// The least pair that each chunk in use may hold. The first chunk also holds what is before its own.
     firsts: Vec<PairId>,
-    /// Those of no use are empty, and kept for their memory.
+    /// Those not in use are empty, and kept for their memory.
     chunks: Vec<Vec<T>>,
 }
 
@@ -72,7 +74,7 @@ impl<T: OfPair> Chunked<T> {
         Self { firsts: Vec::new(), chunks: Vec::new() }
     }
 
-    /// Of a sorted list; each has its place there as its number.
+    /// From a sorted list; each element's number is its place there.
     #[cfg(any(feature = "serde", test))]
     pub(crate) fn of(list: &[T]) -> Self
     where
@@ -95,7 +97,7 @@ impl<T: OfPair> Chunked<T> {
         ends.push(pairs.len());
     }
 
-    /// Chunks that begin with these pairs, at least one; what is in them is to be written over.
+    /// Sets up chunks that begin with these pairs, at least one; their contents are to be overwritten.
     pub(crate) fn begin_at(&mut self, firsts: impl IntoIterator<Item = PairId>) -> &mut [Vec<T>] {
         self.firsts.clear();
         self.firsts.extend(firsts);
@@ -108,28 +110,28 @@ impl<T: OfPair> Chunked<T> {
         chunks
     }
 
-    /// The one of a number.
+    /// The element with a number.
     #[inline]
     pub(crate) fn get(&self, number: usize) -> &T {
         &self.chunks[number / CHUNK][number % CHUNK]
     }
 
-    /// All chunks, those of no use at the end.
+    /// All chunks, those not in use at the end.
     pub(crate) fn chunks(&self) -> &[Vec<T>] {
         &self.chunks
     }
 
-    /// The least pair of each chunk in use; and all chunks, to be written to.
+    /// The least pair of each chunk in use, and all chunks, mutably.
     pub(crate) fn parts(&mut self) -> (&[PairId], &mut [Vec<T>]) {
         (&self.firsts, &mut self.chunks)
     }
 
-    /// How many there are.
+    /// How many elements there are.
     pub(crate) fn len(&self) -> usize {
         self.chunks.iter().map(Vec::len).sum()
     }
 
-    /// All, without their numbers.
+    /// All elements, without their numbers.
     pub(crate) fn all(&self) -> impl Iterator<Item = &T> {
         self.chunks.iter().flatten()
     }
@@ -139,13 +141,13 @@ impl<T: OfPair> Chunked<T> {
         self.chunks.iter_mut().flatten()
     }
 
-    /// All, with their numbers.
+    /// All elements, with their numbers.
     pub(crate) fn iter(&self) -> Walk<'_, T> {
         Walk { here: [].iter(), number: 0, chunks: self.chunks.iter(), next_chunk: 0 }
     }
 
-    /// Those from one pair on, or from the beginning, up to the one before another, or to the end: as slices, none of
-    /// which is looked at before it is its turn.
+    /// Elements from `first` on, or from the beginning, up to but without `end`, or to the end. As slices, none of
+    /// which is read before its turn.
     pub(crate) fn between(&self, first: Option<PairId>, end: Option<PairId>) -> impl Iterator<Item = &[T]> {
         let start = first.map_or_else(|| self.iter(), |first| self.from(first));
         let slices = core::iter::once(start.here.as_slice()).chain(start.chunks.map(Vec::as_slice));
@@ -161,7 +163,7 @@ impl<T: OfPair> Chunked<T> {
         })
     }
 
-    /// Those of this pair and of what comes after it. Cost: logarithmic in all of them.
+    /// The elements of this pair and of those after it. Cost: logarithmic in all of them.
     pub(crate) fn from(&self, pair: PairId) -> Walk<'_, T> {
         let chunk = self.firsts.partition_point(|&first| first <= pair).saturating_sub(1);
         let mut chunks = self.chunks.get(chunk..).unwrap_or_default().iter();
@@ -171,11 +173,11 @@ impl<T: OfPair> Chunked<T> {
     }
 }
 
-/// One after the other, with their numbers.
+/// Iterates over elements with their numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Walk<'a, T> {
     here: core::slice::Iter<'a, T>,
-    /// Of the next one here.
+    /// The number of the next element in `here`.
     number: usize,
     chunks: core::slice::Iter<'a, Vec<T>>,
     next_chunk: usize,

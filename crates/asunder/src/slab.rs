@@ -1,13 +1,13 @@
-//! Things that keep their place while others come and go.
+//! A list whose items keep their places while others come and go.
 
-/// A list with free places; places are handed out from the last that was given up.
+/// A list with free places; the place that was given up last is handed out first.
 #[derive(Debug)]
 pub(crate) struct Slab<T> {
     items: Vec<T>,
     vacant: Vec<u32>,
 }
 
-/// The place of nothing.
+/// No place.
 pub(crate) const NOWHERE: u32 = u32::MAX;
 
 asunder_geometry::copied!(Slab<T>, for [T: Clone], { items, vacant } but {});
@@ -17,25 +17,25 @@ impl<T> Slab<T> {
         Self { items: Vec::new(), vacant: Vec::new() }
     }
 
-    /// Of things in places 0, 1, 2 and so on.
+    /// A slab with items in places 0, 1, 2 and so on.
     #[cfg(feature = "serde")]
     pub(crate) const fn of(items: Vec<T>) -> Self {
         Self { items, vacant: Vec::new() }
     }
 
-    /// What is in a place; nothing of [`NOWHERE`].
+    /// The item in a place; `None` for [`NOWHERE`].
     #[inline]
     pub(crate) fn get(&self, place: u32) -> Option<&T> {
         self.items.get(place as usize)
     }
 
-    /// Gives a place up that is one. What is in it stays until the place is handed out again.
+    /// Gives up a place, which must not be [`NOWHERE`]. Its item stays until the place is handed out again.
     pub(crate) fn vacate(&mut self, place: u32) {
         self.vacant.push(place);
     }
 
-    /// Puts something in the place it had, or where there is one if it had none; says where it is now. What was there
-    /// is shown first: it is large, and handed back it would be moved twice more.
+    /// Puts an item into its own place, or any free one if it has none, and returns the place. The old item is shown
+    /// first: items are large, and returning it would move it twice more.
     #[inline]
     pub(crate) fn put(&mut self, own: u32, item: T, show: impl FnOnce(&mut T)) -> u32 {
         let place = if own == NOWHERE { self.vacant.pop().unwrap_or(NOWHERE) } else { own };

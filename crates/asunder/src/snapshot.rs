@@ -1,13 +1,13 @@
 //! Snapshots: a whole world as plain data, and back.
 //!
 //! ```text
-//! kept         bodies with their slots, versions and the order in which empty slots are filled again; shared shapes, once each
-//!              which bodies moved or changed since the last update, and how far they went; motions; candidates with hints,
-//!              and what is moved along or stays apart; contacts; events; impacts; counts
-//! worked out   boxes, filters, the contacts of each body: functions of the bodies, their motions and contacts
-//! dropped      the memory of the broad phase, whose list depends on the boxes alone, and of the queries; scratch; times
+//! kept      bodies with their slots, versions and the order in which empty slots are filled again; shared shapes, once
+//!           each; which bodies moved or changed since the last update, and how far they moved; motions; candidates
+//!           with hints, persistent manifolds and how long they stay apart; contacts; events; impacts; counts
+//! derived   boxes, filters, the contacts of each body: functions of the bodies, their motions and contacts
+//! dropped   the memory of the broad phase, whose pairs depend on the boxes alone, and of the queries; scratch; times
 //! ```
-//! The world and its bodies are taken apart field by field, without `..`: what is added to them must be sorted into
+//! The world and its bodies are destructured field by field, without `..`: a field that is added must be sorted into
 //! one of these rows before this compiles again.
 
 mod body;
@@ -102,14 +102,14 @@ impl<S: Saved> World<S> {
     }
 }
 
-/// What [`World::snapshot`] gives.
+/// Implements [`World::snapshot`].
 fn save<S: Saved>(world: &World<S>) -> Snapshot<S> {
     let content = Content::of(world);
     let checksum = digest::digest(&content);
     Snapshot { content, checksum }
 }
 
-/// What [`World::restore`] gives.
+/// Implements [`World::restore`].
 fn restore<S: Saved>(snapshot: &Snapshot<S>) -> Result<World<S>, SnapshotError> {
     let Snapshot { content, checksum } = snapshot;
     let world = restore::world_of(content)?;

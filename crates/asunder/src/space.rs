@@ -43,13 +43,13 @@ slotmap::new_key_type! {
     pub struct BodyKey3;
 }
 
-/// What a body on its way may run into.
+/// What a moving body may run into.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum RunsInto<'f, S: Space> {
     /// Either is a sensor.
     Sensor,
-    /// Something solid, while it touches this.
+    /// Something solid, while the body has these touches.
     Solid(&'f [S::Touch]),
 }
 
@@ -104,27 +104,27 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     /// A manifold that is moved along while its bodies hardly drift.
     #[doc(hidden)]
     type Persistent: Clone + PartialEq + Debug + Send + Sync;
-    /// Memory of what is kept no longer.
+    /// Memory of persistent manifolds that are no longer kept.
     #[doc(hidden)]
     type Spare: Clone + Default + Debug + Send + Sync;
     /// How a body moves within a frame.
     type Motion: Copy + PartialEq + Debug + Send + Sync;
     /// When two bodies first touch.
     type Impact: Copy + PartialEq + Debug + Send + Sync;
-    /// What a body touches beside the other of a pair.
+    /// What a body touches, other than the second body of a pair.
     #[doc(hidden)]
     type Touch: Copy + Debug + Send + Sync;
     /// One pair for the narrow phase.
     #[doc(hidden)]
     type Job<'a>: Send + Sync;
 
-    /// One frame. Not generic where it is defined, so that it is compiled with this crate, and optimised as this crate
-    /// is: a game that calls [`World::update`] would else compile all of it anew, and in a debug build run it
+    /// Runs one frame. Its definitions are not generic, so it is compiled with this crate and its optimisation:
+    /// otherwise a game that calls [`World::update`] would compile all of it anew, and in a debug build run it
     /// unoptimised.
     #[doc(hidden)]
     fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>);
 
-    /// Makes one world what another is; not generic for the same reason.
+    /// Makes one world equal to another; not generic for the same reason.
     #[doc(hidden)]
     fn copy(from: &World<Self>, to: &mut World<Self>);
 
@@ -144,7 +144,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn union(one: &Self::Aabb, other: &Self::Aabb) -> Self::Aabb;
 
-    /// How far a shape reaches from its body's position, in metres, whichever way it is turned. Infinite without end.
+    /// How far a shape reaches from its body's position, in metres, whichever way it is turned; may be infinite.
     #[doc(hidden)]
     fn arm(shape: &Self::Shape) -> f64;
 
@@ -164,9 +164,9 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
-    /// When two bodies first touch in their motions where they do not touch at the start, and the share of the motions
-    /// that is done by then. Where either is a sensor and they overlap already, there is no impact with other parts;
-    /// where both are solid, the first is led over what is flush with what it touches.
+    /// When two bodies first touch in their motions somewhere they do not touch at the start, and the fraction of the
+    /// motions until then. Where either is a sensor and they overlap already, there is no impact with other parts.
+    /// Where both are solid, the first passes over whatever is flush with what it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],
@@ -174,7 +174,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
         motions: [Option<Self::Motion>; 2],
     ) -> Option<(f64, Self::Impact)>;
 
-    /// What a contact's manifold is to one of its two.
+    /// A contact's manifold as a touch of one of the two bodies.
     #[doc(hidden)]
     fn touch(manifold: &Self::Manifold, is_a: bool) -> Self::Touch;
 
@@ -194,7 +194,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn collide(jobs: &[Self::Job<'_>], batch: &mut Batch<Self::Manifold>);
 
-    /// What can be kept of an answer to bodies that went so far in the last frame, in metres.
+    /// The persistent manifold of an answer, if it pays for bodies that moved by `step` metres in the last frame.
     #[doc(hidden)]
     fn persistent(
         job: &Self::Job<'_>,
@@ -204,7 +204,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
         spare: &mut Self::Spare,
     ) -> Option<Self::Persistent>;
 
-    /// Whether a store has no memory that may be lent.
+    /// Whether a store has no memory to lend.
     #[doc(hidden)]
     fn has_no_memory(spare: &Self::Spare) -> bool;
 
@@ -212,12 +212,12 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn lend(from: &mut Self::Spare, to: &mut Self::Spare);
 
-    /// Takes the memory of what is kept no longer.
+    /// Takes the memory of a persistent manifold that is no longer kept.
     #[doc(hidden)]
     fn reclaim(spare: &mut Self::Spare, kept: &mut Self::Persistent);
 
-    /// Appends what was kept, moved along, unless it has to be made anew: bodies drifted, margins changed, or one has
-    /// become a sensor.
+    /// Appends a persistent manifold's manifolds, moved along; `None` if they have to be made anew, since bodies
+    /// drifted, margins changed, or one has become a sensor.
     #[doc(hidden)]
     fn carry_on(
         persistent: &Self::Persistent,

@@ -62,9 +62,9 @@ pub struct World<S: Space> {
     pub(crate) bodies: SlotMap<S::Key, Collider<S>>,
     /// Key of the body in each slot; null where the slot is empty.
     pub(crate) keys: Vec<S::Key>,
-    /// Box of the body in each slot; a box that overlaps nothing where the slot is empty.
+    /// Box of the body in each slot; where the slot is empty, one that overlaps nothing.
     pub(crate) boxes: Vec<S::Aabb>,
-    /// What the filter asks of the body in each slot.
+    /// What the filter needs of the body in each slot.
     pub(crate) tags: Vec<Tag>,
     /// Slots whose box is out of date, in the order in which they became so, and the same as a flag a slot.
     pub(crate) dirty: Vec<u32>,
@@ -72,44 +72,45 @@ pub struct World<S: Space> {
     /// Slots whose body moved, came or went since candidates were last collided, and the same as a flag a slot.
     pub(crate) moved: Vec<u32>,
     pub(crate) is_moved: Vec<bool>,
-    /// Slots whose body got another shape since then: what was learnt with the one before does not count.
+    /// Slots whose body has got another shape since then: what is known from the old one is void.
     pub(crate) reshaped: Vec<u32>,
-    /// How far the body in each slot went.
+    /// How far the body in each slot has moved.
     pub(crate) odometers: Vec<Odometer>,
-    /// What bodies are about to do, until the next update.
+    /// Motions of bodies until the next update.
     pub(crate) motions: Motions<S>,
     pub(crate) max_pairs: usize,
-    /// What queries are asked of; nothing that an output depends on.
+    /// The trees that answer queries; no output depends on them.
     pub(crate) questions: Boxes<S>,
 
     pub(crate) candidates: Candidates<S::Key>,
     pub(crate) records: Records<S::Key>,
-    /// What was answered about the pairs, chunk by chunk, with the manifolds of all of them.
+    /// The narrow phase's answers, chunk by chunk, with all manifolds.
     pub(crate) answered: Vec<Batch<S::Manifold>>,
-    /// Manifolds that can be moved along while their bodies hardly drift, as they were made: one a candidate at most,
-    /// each in a place that it keeps.
+    /// Manifolds that can be moved along while their bodies hardly drift, as they were made: at most one a candidate,
+    /// each in a fixed place.
     pub(crate) persistent: Slab<S::Persistent>,
-    /// What a contact hook made of them at the last update; nothing without one.
+    /// The manifolds as a contact hook left them at the last update; `None` without one.
     pub(crate) edited: Option<Edited<S>>,
     pub(crate) events: Vec<Event<S::Key>>,
     pub(crate) impacts: Vec<Hit<S::Key, S::Impact>>,
-    /// Numbers of records by their second body, then their first: with the records themselves, every body's contacts.
+    /// Numbers of records, sorted by second body, then first. Together with the records, which are sorted by first
+    /// body, they give every body's contacts.
     pub(crate) by_second: Vec<u32>,
     pub(crate) stats: Stats,
     pub(crate) scratch: Scratch<S>,
 }
 
-/// Memory that a frame needs, and nothing that an output depends on.
+/// Working memory of a frame; no output depends on it.
 pub(crate) struct Scratch<S: Space> {
     pub(crate) sweep: LooseSweep<S::Aabb>,
     pub(crate) pairs: Vec<PairId>,
-    /// Memory of persistent manifolds that are kept no longer.
+    /// Memory of persistent manifolds that are no longer kept.
     pub(crate) spare: S::Spare,
-    /// Whether what the chunks handed over last is still of the world's own chunks.
+    /// Whether `settled` still belongs to this world's chunks.
     pub(crate) is_settled: bool,
     /// Where each chunk's part of the pairs ends.
     pub(crate) chunk_ends: Vec<usize>,
-    /// What the chunks hand over.
+    /// The chunks' results.
     pub(crate) settled: Vec<Settled<S>>,
     pub(crate) last_candidates: Candidates<S::Key>,
     pub(crate) last_records: Records<S::Key>,
@@ -117,14 +118,14 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) ended: Vec<Record<S::Key>>,
     /// The manifolds that a contact hook is editing.
     pub(crate) editing: Vec<S::Manifold>,
-    /// Pairs with a bullet, the bullet first; and what they run into.
+    /// Pairs with a bullet, the bullet first.
     pub(crate) of_bullets: Vec<(S::Key, S::Key)>,
-    /// By their slots, what bullets touch.
+    /// What bullets touch, by their slots.
     pub(crate) touches: Touches<S>,
     pub(crate) found: Vec<Found<S>>,
     #[cfg(feature = "parallel")]
     pub(crate) impacts: Vec<Option<Found<S>>>,
-    /// Where each slot's records end, in order of their second body; and these with their numbers.
+    /// For the index by second body: where each slot's records end; or second bodies with record numbers, to be sorted.
     pub(crate) ends: Vec<u32>,
     pub(crate) seconds: Vec<(u32, u32)>,
 }
@@ -295,7 +296,7 @@ impl<S: Space> World<S> {
         self.show_record(number, self.records.get(number))
     }
 
-    // A game reads all of them each frame.
+    // Inlined, since a game reads all of them each frame.
     #[inline]
     fn show_record<'a>(&'a self, number: usize, record: &Record<S::Key>) -> Contact<'a, S::Key, S::Manifold> {
         let Record { keys: (a, b), user_data, sensor, overlapping, is_new, speculative, .. } = *record;
@@ -313,7 +314,7 @@ impl<S: Space> World<S> {
         }
         let pair = PairId::new(slot_of(one), slot_of(other));
         let (number, record) = self.records.from(pair).next().filter(|(_, record)| record.pair == pair)?;
-        // A slot may have had another tenant when the record was made.
+        // The slot may have had another body when the record was made.
         (record.keys == (one, other) || record.keys == (other, one)).then_some(number)
     }
 
@@ -324,7 +325,7 @@ impl<S: Space> World<S> {
 
     /// Records of one body, by their numbers, in order of the other body's slot.
     pub(crate) fn records_of(&self, key: S::Key) -> impl Iterator<Item = usize> + Clone {
-        // A stale key gets an empty range, and so does a slot whose records were another tenant's.
+        // A stale key gets an empty range. The records of a reused slot are filtered out below.
         let slot = if self.bodies.contains_key(key) { slot_of(key) } else { u32::MAX };
         let second = |&number: &u32| self.records.get(number as usize).pair.b;
         let start = self.by_second.partition_point(|number| second(number) < slot);

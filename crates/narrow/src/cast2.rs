@@ -147,14 +147,14 @@ impl Pair2<'_> {
     /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
     ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
     ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
-    /// - If a body turns, and is deeper along that normal at the start than in what it touches, since another axis
-    ///   parts the two, what it goes into counts from where they meet.
+    /// - If a body turns, the two may overlap along that normal at the start, deeper than the contacts account for,
+    ///   since another axis separates them. Then the motion into the part counts from where they meet.
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.
     /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
     /// - Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact
-    ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors are as
-    ///   good as half a thickness.
+    ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors may be off
+    ///   by up to half the thickness.
     /// - `None` for bodies of one part each that touch. Never `overlapping`.
     ///
     /// Cost: as the impact, which is asked first; for those that touch, their manifolds too, and another search.

@@ -1,13 +1,13 @@
-//! Which way is left between planes.
+//! The way that planes leave open.
 
 use super::Linear;
 use asunder_geometry::tolerance::STANDSTILL;
 
 /// The vector nearest to `v` that goes into no plane, given by unit normals that point away from what is solid.
 ///
-/// It is `v` itself, or its foot on one plane, on the crease of two, or zero. The foot on one plane is the nearest
-/// vector of a half-space that holds all that is left, so the first that goes into no other plane is the answer; of
-/// creases several may be left.
+/// It is `v` itself, or its projection on one plane, on the crease of two, or zero. The projection on one plane is the
+/// nearest vector of a half-space that contains all allowed ones, so the first that goes into no other plane is the
+/// answer; of creases, several may be allowed.
 pub(super) fn along<P: Linear>(v: P, normals: &[P], crease: impl Fn(P, P) -> Option<P>) -> P {
     let slack = STANDSTILL * v.length();
     let is_free = |v: P| normals.iter().all(|&normal| v.dot(normal) >= -slack);
@@ -24,7 +24,7 @@ pub(super) fn along<P: Linear>(v: P, normals: &[P], crease: impl Fn(P, P) -> Opt
         for &other in &normals[index + 1..] {
             if let Some(along) = crease(one, other) {
                 let foot = along * v.dot(along);
-                // Of feet on lines, the longest is the nearest.
+                // Of projections on lines, the longest is the nearest.
                 if is_free(foot) && foot.length() > best.length() {
                     best = foot;
                 }

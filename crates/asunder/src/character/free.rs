@@ -1,4 +1,4 @@
-//! Out of what overlaps.
+//! Moves a shape out of what it overlaps.
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
@@ -12,35 +12,35 @@ use core::ops::ControlFlow;
 /// How often the shape is pushed before it counts as wedged.
 const ROUNDS: usize = 16;
 
-/// How often the planes of one round are gone through.
+/// How often one round goes through its planes.
 const SWEEPS: usize = 32;
 
-/// Times the way out of the deepest alone: whether there is none shorter than one as long is looked at. Out of a floor
-/// and a wall at once it is at most the square root of two.
+/// From how many times the way out of the deepest plane alone a way out counts as long, and a shorter one is searched
+/// for. Out of a floor and a wall at once it is at most the square root of two.
 const LONG: f64 = 1.5;
 
-/// Places that are tried along one direction, the first as far away as any way out must lead, and each further than the
-/// one before by so much: up to four times as far, so that nobody is taken through walls that are as thick.
+/// How many places are tried along one direction. The first is as far away as any way out must lead, and each is
+/// further than the one before by [`GROWTH`]: up to four times as far, so that nobody is taken through thicker walls.
 const TRIES: usize = 7;
 const GROWTH: f64 = 1.25;
 
-/// How often what lies between the last two is halved.
+/// How often the interval between the last two places is halved.
 const HALVINGS: usize = 4;
 
-/// Manifolds that are looked at in one round: the nearest, or deepest.
+/// Most manifolds in one round: the nearest, or deepest.
 const MOST_NEAR: usize = 16;
 
-/// What is within reach of a body, as a plane: the shape may go no further towards it than its gap.
+/// A manifold with a body nearby, as a plane: the shape may go no further towards it than its gap.
 pub(super) struct Near<S: Walks> {
     pub(super) body: S::Key,
-    /// Which of the body's manifolds.
+    /// The manifold's number among the body's.
     order: usize,
     pub(super) plane: Gap<S::Point>,
 }
 
 impl<S: Walks> Near<S> {
-    /// Which comes first: the nearer, or deeper, and of those as near one by its normal. Only what is one plane goes by
-    /// slots, and there it is nothing to the way out which is first.
+    /// Orders planes: the nearer or deeper first, then by the normal. Only equal planes go by slots, and for them the
+    /// order does not change the way out.
     pub(super) fn rank(&self, other: &Self) -> Ordering {
         let of_body = |near: &Self| (slot_of(near.body), near.order);
         let by_gap = self.plane.gap.total_cmp(&other.plane.gap);
@@ -53,7 +53,7 @@ impl<S: Walks> Near<S> {
 /// A shape and where it is.
 pub(super) type At<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 
-/// What is asked: in which world, of what, how far it is to be clear in metres, and whom it sees.
+/// A request to free a shape: the world, the shape, its pose, the gap to reach in metres, and which bodies count.
 pub(super) struct Freeing<'a, S: Walks> {
     pub(super) world: &'a World<S>,
     pub(super) shape: &'a S::Shape,
@@ -63,25 +63,25 @@ pub(super) struct Freeing<'a, S: Walks> {
 }
 
 impl<S: Walks> Freeing<'_, S> {
-    /// Moves the shape until it is as clear as is asked of all that it overlapped.
+    /// Moves the shape until it keeps the target gap to all that it overlapped.
     ///
     /// ```text
     /// repeat
-    ///   find the planes of all that is near
+    ///   find the planes of all manifolds nearby
     ///   nothing overlaps: done
-    ///   push out of the deepest alone; free of all: done, and no shorter way leads out of that one
+    ///   push out of the deepest plane alone; if that frees the shape: done, by the shortest way out of that plane
     ///   push out of all planes at once
     /// ```
-    /// The deepest alone comes first since among tiles of a floor it is the only one that matters: the sides of its
-    /// neighbours, of which the shape overlaps a little, would push it sideways. No push takes a part's middle through
-    /// ground.
+    /// The deepest plane comes first, since among tiles of a floor it is the only one that matters: the sides of
+    /// neighbouring tiles, which the shape overlaps a little, would push it sideways. No push takes a part's centre
+    /// through ground.
     pub(super) fn by_pushes(&self) -> Freed<S::Pose, S::Point> {
         self.by_rounds().0
     }
 
-    /// The same; and where that does not lead out, or by a long way, whatever straight way is shorter, along the
-    /// normals of the planes and in directions all around. Not for who walks: between a floor and what comes down on
-    /// it, that would throw a character out sideways that is crushed.
+    /// The same; and where pushes do not free the shape, or by a long way, the shortest straight way out along the
+    /// planes' normals and in directions all around. Not for characters: one that is crushed between a floor and
+    /// something that comes down on it would be thrown out sideways.
     pub(super) fn all_around(&self) -> Freed<S::Pose, S::Point> {
         let (freed, least) = self.by_rounds();
         let most = if freed.is_free { freed.moved.length() } else { f64::INFINITY };
@@ -104,7 +104,7 @@ impl<S: Walks> Freeing<'_, S> {
         near(self.world, (self.shape, pose), self.target, self.filter)
     }
 
-    /// A place that many pushes lead to, and how long any way out must be.
+    /// Frees by pushes; and a lower bound on the length of any way out.
     fn by_rounds(&self) -> (Freed<S::Pose, S::Point>, f64) {
         let mut pose = *self.start;
         let (mut best, mut least) = ((f64::NEG_INFINITY, pose), 0.0);
@@ -124,7 +124,7 @@ impl<S: Walks> Freeing<'_, S> {
             if round == ROUNDS {
                 break;
             }
-            // In a gap too narrow to be clear of both sides, less has to do.
+            // In a gap too narrow for the target on both sides, a smaller gap has to do.
             let target = if round < ROUNDS / 2 { self.target } else { self.target / 16.0 };
             let way = deepest.away * (target - deepest.gap);
             let alone = S::moved(&pose, way).filter(|moved| !self.overlaps(moved));
@@ -140,7 +140,7 @@ impl<S: Walks> Freeing<'_, S> {
         (self.found(best.1, false), least)
     }
 
-    /// The shortest straight way out that is found, of at least so many metres and less than so many.
+    /// The shortest straight way out that is found, between `least` and `most` metres long.
     fn straight(&self, least: f64, most: f64) -> Option<Freed<S::Pose, S::Point>> {
         let (mut best, mut most) = (None, most);
         let mut look = |away: S::Point| {
@@ -154,7 +154,7 @@ impl<S: Walks> Freeing<'_, S> {
         best
     }
 
-    /// The least way along a direction that frees the shape, nearly, of at least so many metres and less than so many.
+    /// Nearly the shortest way along a direction that frees the shape, between `least` and `most` metres long.
     fn first_free(&self, away: S::Point, least: f64, most: f64) -> Option<(f64, S::Pose)> {
         let place = |way: f64| S::moved(self.start, away * way).filter(|pose| !self.overlaps(pose));
         let (mut blocked, mut way) = (least, least);
@@ -171,7 +171,7 @@ impl<S: Walks> Freeing<'_, S> {
                         None => blocked = middle,
                     }
                 }
-                // Not only just.
+                // With the target gap, if there is room.
                 let clear = free.0 + self.target;
                 free = place(clear).map_or(free, |pose| (clear, pose));
                 let is_open = self.share_before_ground(self.start, away * free.0, self.target) >= 1.0;
@@ -182,20 +182,20 @@ impl<S: Walks> Freeing<'_, S> {
         None
     }
 
-    /// How much of a way may be gone: all of it, unless the middle of one of the shape's convex parts would go through
-    /// ground, from a side that is solid. Beyond, that ground would be nothing that the part overlaps, and who is
-    /// pressed against it would count as free there.
+    /// Which share of a way is allowed: all of it, unless the centre of one of the shape's convex parts would go
+    /// through ground, from a side that is solid. Beyond it the part would not count as overlapping that ground, and a
+    /// shape pressed against it would count as free there.
     ///
-    /// Middles stay `before` metres from where they would go through. Of the way that was left a share was gone until
-    /// 2026-11-27: after sixteen rounds nothing is left between the middle and the ground, and the next push starts
-    /// behind.
+    /// Centres stop `before` metres short of where they would go through. Until 2026-11-27 they went a share of the
+    /// remaining way: after sixteen rounds nothing was left between centre and ground, and the next push started behind
+    /// it.
     fn share_before_ground(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
         let Self { world, shape, filter, .. } = *self;
         let before = before / way.length();
         let mut share = 1.0_f64;
         S::middles((shape, from), |middle| {
             let Some(ray) = S::ray(middle, way) else { return };
-            // Who goes all of the way stays as far from what lies beyond.
+            // Ground just beyond the end of the way counts, too, so that the gap is kept there.
             let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
                 let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
                 let through = ground.and_then(|body| {
@@ -209,17 +209,17 @@ impl<S: Walks> Freeing<'_, S> {
     }
 }
 
-/// The shortest way to be `target` metres clear of all planes, nearly; somewhere in between where there is none.
+/// Nearly the shortest way to a gap of `target` metres to all planes; a compromise where there is none.
 ///
-/// In acute corners sweeps end before they are through: then it is clear of the last plane, and of the others less.
+/// In acute corners the sweeps end before they converge: then the gap is right for the last plane, and smaller for the
+/// others.
 pub(super) fn push<S: Walks>(near: &[Near<S>], target: f64) -> S::Point {
     let (mut way, mut pushes) = (S::Point::ZERO, [0.0; MOST_NEAR]);
     for _ in 0..SWEEPS {
         let mut most = 0.0_f64;
         for (Near { plane, .. }, pushed) in near.iter().zip(&mut pushes) {
             let lacks = target - plane.gap - plane.away.dot(way);
-            // What was pushed may be taken back, as others have done the work meanwhile: this makes it the shortest
-            // way.
+            // A push may be taken back when other planes have made it unnecessary: this makes the way the shortest.
             let change = lacks.max(-*pushed);
             *pushed += change;
             way = way + plane.away * change;
@@ -232,7 +232,7 @@ pub(super) fn push<S: Walks>(near: &[Near<S>], target: f64) -> S::Point {
     way
 }
 
-/// All manifolds within a margin, or the nearest of them, by their bodies' slots.
+/// All manifolds within a margin, or the nearest of them, sorted by their bodies' slots.
 pub(super) fn near<S: Walks>(
     world: &World<S>,
     at: At<'_, S>,
@@ -262,12 +262,13 @@ pub(super) fn near<S: Walks>(
     found
 }
 
-/// Whether the shape overlaps anything that sees it, of one-sided ground a front; exact.
+/// Whether the shape overlaps anything that counts; one-sided ground counts from its front alone. Exact.
 pub(super) fn is_overlapping<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
     is_any(world, at, filter, |body| S::overlaps_front(at, body))
 }
 
-/// The same after a way that casts have led: what has one side may have been passed from behind, and sees it only now.
+/// The same at the end of a way made of casts. One-sided bodies are left out: the shape may have passed them from
+/// behind, and is in front of them only now.
 pub(super) fn has_entered<S: Walks>(world: &World<S>, at: At<'_, S>, filter: &Filter<'_, S>) -> bool {
     is_any(world, at, filter, |body| !S::has_one_side(body) && S::overlaps(at, body))
 }

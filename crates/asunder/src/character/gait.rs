@@ -1,4 +1,4 @@
-//! How a character walks, in numbers that can be trusted.
+//! How a character walks, in sanitised numbers.
 
 use super::{Linear, Walk, Walks};
 use crate::space::Space;
@@ -7,7 +7,7 @@ use asunder_geometry::tolerance::{LEAST_SKIN, MAX_RADIUS, SKIN, UPRIGHT};
 impl<N> Walk<N> {
     /// The defaults for a shape of this bounding radius.
     pub(super) fn for_size(size: f64, up: N) -> Self {
-        // A half-space walks nowhere.
+        // A half-space cannot walk.
         let size = if size.is_finite() { size as f32 } else { 0.0 };
         let step = 0.35 * size;
         Self { up, skin: SKIN * size, steepest: STEEPEST, step, snap: step }
@@ -34,20 +34,20 @@ impl<P: Linear> Gait<P> {
         Self {
             up: S::wide(walk.up).unit().unwrap_or(P::ZERO),
             skin: length(walk.skin).max(least_skin::<S>(shape, pose)),
-            // What is upright is no ground, whatever a game says.
+            // An upright wall is no ground, whatever a game sets.
             steepest: f64::from(steepest).max(UPRIGHT),
             step: length(walk.step),
             snap: length(walk.snap),
         }
     }
 
-    /// What of a vector is not up or down.
+    /// The part of a vector that is neither up nor down.
     pub(super) fn level(&self, v: P) -> P {
         v - self.up * v.dot(self.up)
     }
 }
 
-/// The least gap that is kept: more than what positions round to.
+/// The least gap that is kept: more than the rounding of positions.
 pub(super) fn least_skin<S: Walks>(shape: &S::Shape, pose: &<S as Space>::Pose) -> f64 {
     let rounding = S::position(pose).length() * (64.0 * f64::EPSILON);
     (LEAST_SKIN * S::size(shape)).max(rounding)

@@ -32,7 +32,7 @@ impl Walk2 {
     /// # Errors
     /// An `up` that is not finite, or zero. If no direction is to be up, set the field to zero afterwards.
     pub fn new(shape: &Shape2, up: Vec2) -> Result<Self, DirectionError> {
-        // Whether it is a direction is the same question.
+        // A half-plane's normal must be a direction, too: the same check.
         HalfPlane::new(up)?;
         Ok(Self::for_size(Plane::size(shape), up))
     }

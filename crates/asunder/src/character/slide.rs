@@ -1,4 +1,4 @@
-//! Going along what is met.
+//! Moves a character and turns its way along what it meets.
 
 use super::clip::along;
 use super::free::{Freeing, Near, has_entered, is_overlapping, near, push};
@@ -11,16 +11,18 @@ use asunder_geometry::tolerance::{EDGE_HOLD, GRAZING, MAX_POSITION, SKIN_SLACK, 
 use asunder_narrow::ArrayVec;
 use core::ops::ControlFlow;
 
-/// Casts along the way, and so walls that can be slid along, one after the other.
+/// Most casts in one call, and so the most walls to slide along one after the other.
 const SLIDES: usize = 6;
 
-/// Sine of the angle between a ceiling and the ground up to which it is no wall to who walks there.
+/// Sine of the angle between a ceiling and the ground up to which the ceiling does not count as a wall for a walking
+/// character.
 const LEAST_ASIDE: f64 = 1.0 / 16.0;
 
-/// Planes that were met, and walls that what leans over is along each.
+/// The planes met so far, or the walls; an overhang makes one wall for each ground.
 type Planes<S> = ArrayVec<<S as Asked>::Point, { SLIDES * SLIDES }>;
 
-/// How far beyond its way a shape looks, in skins: what it would come closer to than its skin, it has to see.
+/// How far beyond its way a cast looks, in skins, so that it sees whatever the shape would come closer to than its
+/// skin.
 const OUTLOOK: f64 = 5.0;
 
 pub(crate) type Slid<S> =
@@ -28,7 +30,7 @@ pub(crate) type Slid<S> =
 
 type Noted<S> = Obstacle<<S as Space>::Key, <S as Asked>::Vector, <S as Asked>::Point>;
 
-/// What is in the way.
+/// An obstacle on the way.
 struct Hit<S: Walks> {
     body: S::Key,
     parts: (u32, u32),
@@ -42,7 +44,7 @@ struct Hit<S: Walks> {
 }
 
 impl<S: Walks> Hit<S> {
-    /// Of a cast along a unit direction, so many metres long.
+    /// From the result of a cast along a unit direction, `length` metres long.
     fn of(hit: &Meet<S>, unit: S::Point, length: f64) -> Self {
         let mut normal = -S::wide(hit.normal);
         if -unit.dot(normal) < GRAZING {
@@ -52,7 +54,7 @@ impl<S: Walks> Hit<S> {
         Self { body: hit.body, parts, normal, point: hit.point, at, approach: -unit.dot(normal) }
     }
 
-    /// How far one can go and keep a gap: as if the body were a plane.
+    /// How far the shape can go and keep a gap, as if the body were a plane.
     fn until(&self, gap: f64) -> f64 {
         (self.at - gap / self.approach).max(0.0)
     }
@@ -68,15 +70,15 @@ struct Bound<S: Walks> {
     body: S::Key,
     parts: (u32, u32),
     normal: S::Point,
-    /// The same without up or down, of what is too steep to walk on: it is not climbed either.
+    /// The level part of the normal, if the plane is too steep to walk on, so that the way does not lead up it either.
     wall: Option<S::Point>,
     /// Whether a character can walk on it.
     is_ground: bool,
-    /// Whether a character can stand on it: what is ground, and edges of steps.
+    /// Whether a character can stand on it: ground, and edges of steps.
     holds: bool,
 }
 
-/// A shape on its way.
+/// A shape as it moves.
 struct Mover<'w, S: Walks> {
     world: &'w World<S>,
     shape: &'w S::Shape,
@@ -89,13 +91,13 @@ struct Mover<'w, S: Walks> {
 ///
 /// ```text
 /// free the shape, or move it back to its skin's distance
-/// who stands begins along what it stands on                     (Mover::footing)
+/// if it stands, begin along what it stands on                   (Mover::footing)
 /// repeat                                                        at most SLIDES times
-///   turn what is left along all planes met                      (Mover::way)
-///   cast; go until the skin is reached                          (Mover::go)
+///   turn the rest of the way along all planes met               (Mover::way)
+///   cast; move until the skin is reached                        (Mover::go)
 ///   a wall, met from the ground: try to climb it as a step      (Mover::climb)
-/// look for ground below, and go down to it if it was walked on; beside what is steep,
-///   ground that is near enough                                  (Mover::land)
+/// look for ground below, and move down to it if the character walked on ground before;
+///   where a steep body is met first, look for ground beside it  (Mover::land)
 /// ```
 pub(crate) fn move_and_slide<S: Walks>(
     world: &World<S>,
@@ -119,7 +121,8 @@ pub(crate) fn move_and_slide<S: Walks>(
         let free = mover.keep_away(displacement, &mut slid);
         if slid.is_free {
             mover.slide(displacement, &mut slid);
-            // A cast certifies the path, and a pose rounds it: what passes an edge by less than that may touch it.
+            // The cast proves its path free, but the pose is rounded: a shape that passes an edge by less than that may
+            // touch it.
             if has_entered(world, (shape, &mover.pose), &mover.filter) {
                 mover.pose = free;
                 slid.blocked = true;
@@ -135,7 +138,7 @@ pub(crate) fn move_and_slide<S: Walks>(
     slid
 }
 
-/// A displacement that f32 can hold with some to spare; what is not finite is none.
+/// A displacement shortened to what f32 can hold with room to spare; zero if it is not finite.
 fn within_reach<P: Linear>(displacement: P) -> P {
     let (length, most) = (displacement.length(), 4.0 * MAX_POSITION);
     if !length.is_finite() {
@@ -148,11 +151,11 @@ fn within_reach<P: Linear>(displacement: P) -> P {
 }
 
 impl<S: Walks> Mover<'_, S> {
-    /// Frees the shape of what it overlaps, or moves it off what it is closer to than its skin. Tells where it was
-    /// free first.
+    /// Frees the shape of what it overlaps, or moves it away from what is closer than its skin. Returns the first pose
+    /// at which it was free.
     ///
-    /// Who goes into a wall by less than a skin meets nothing on the way, and is back here with the next call: that
-    /// wall is noted.
+    /// A character that goes into a wall by less than a skin meets nothing on the way, and is back here with the next
+    /// call: so that wall is noted here.
     fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let mut near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
@@ -169,8 +172,9 @@ impl<S: Walks> Mover<'_, S> {
         let start = self.pose;
         let is_close = |near: &&Near<S>| near.plane.gap < skin * (1.0 - SKIN_SLACK);
         if near.iter().any(|near| is_close(&near)) {
-            // By geometry, so that slots say nothing here; and the furthest last: of a way that leads into what is a
-            // skin away, by however little, nothing can be gone.
+            // Sorted by geometry, so that the result does not depend on slots; the furthest last, since `push` is exact
+            // for the last plane: a way that leads, by however little, into something a skin away would be blocked at
+            // once.
             near.sort_unstable_by(Near::rank);
             self.go(push::<S>(&near, skin));
         }
@@ -191,8 +195,8 @@ impl<S: Walks> Mover<'_, S> {
         let was_on_ground = ground.is_some();
         let mut may_climb = was_on_ground && self.gait.step > 0.0;
         let mut left = displacement;
-        // Who stands goes along the ground from the start: what goes down a little would not meet it soon enough to
-        // keep the skin.
+        // A standing character goes along the ground from the start: a way that leads down a little would meet the
+        // ground too late to keep the skin.
         let mut bounds: ArrayVec<Bound<S>, SLIDES> = ground.iter().map(|hit| self.footing(hit)).collect();
         for _ in 0..SLIDES {
             let way = self.way(left, &bounds);
@@ -206,7 +210,7 @@ impl<S: Walks> Mover<'_, S> {
                 break;
             };
             let mut bound = self.bound(&hit);
-            // An edge carries nobody who rises, or would fall beside it.
+            // An edge does not hold a character that rises, or would fall beside it.
             bound.holds &= bound.is_ground || (!is_rising && self.land(0.0).is_some());
             let climb = bound.wall.is_some() && may_climb;
             if climb && let Some(share) = self.climb(self.gait.level(way * (1.0 - share))) {
@@ -215,13 +219,13 @@ impl<S: Walks> Mover<'_, S> {
                 bounds.clear();
                 continue;
             }
-            // Round feet may hold on to an edge that they do not get up on.
+            // Round feet may be held by an edge that they cannot climb.
             if climb || !bound.holds {
                 note::<S>(slid, hit.note());
             }
             let same = |old: &Bound<S>| (old.body, old.parts) == (bound.body, bound.parts);
             bounds.retain(|old| !same(old));
-            // No more than there are casts.
+            // There are no more bounds than casts.
             let _ = bounds.try_push(bound);
         }
         slid.blocked = !slid.walls.is_empty() && left.length() > STANDSTILL * length;
@@ -229,16 +233,16 @@ impl<S: Walks> Mover<'_, S> {
         slid.ground = if is_rising { None } else { self.land(reach).map(|hit| hit.note()) };
     }
 
-    /// What is left, turned along what was met.
+    /// The rest of the displacement, turned along what was met.
     ///
-    /// - What holds takes what goes down: nobody slides off ground that can be walked on.
-    /// - What is too steep is a wall when walked into, and a slope when falling.
-    /// - On ground one goes as fast uphill and downhill as on the level.
-    /// - What leans over is a wall to who does not rise. Turned along other walls first, and only then along the
-    ///   ceiling and what is below, the way could lead back to where it came from, or up where a slope and what leans
-    ///   over it meet.
-    /// - No way leads back: where all that is left would, as in acute corners, it ends. This is Quake's rule, without
-    ///   which characters tremble there.
+    /// - A bound that holds cancels the downward part: nothing slides off ground that can be walked on.
+    /// - A plane that is too steep is a wall when walked into, and a slope when falling.
+    /// - On ground the speed is the same uphill, downhill and on the level.
+    /// - An overhang is a wall for a character that does not rise. If the way were turned along other walls first, and
+    ///   only then along the overhang and what is below, it could lead back to where it came from, or up where a slope
+    ///   and the overhang meet.
+    /// - No way leads back: where only such ways are left, as in acute corners, the move ends. This is Quake's rule,
+    ///   without which characters tremble there.
     fn way(&self, left: S::Point, bounds: &[Bound<S>]) -> S::Point {
         let Gait { up, .. } = self.gait;
         let mut rise = left.dot(up);
@@ -247,7 +251,7 @@ impl<S: Walks> Mover<'_, S> {
             rise = rise.max(0.0);
         }
         let mut walls: Planes<S> = bounds.iter().filter_map(|bound| bound.wall).collect();
-        // Not by what rounding makes of a level way.
+        // A level way may rise by rounding, which does not count.
         let is_rising = rise > STANDSTILL * left.length();
         if !is_rising {
             self.add_walls_over(bounds, &mut walls);
@@ -263,15 +267,15 @@ impl<S: Walks> Mover<'_, S> {
         }
         let planes: Planes<S> = bounds.iter().map(|bound| bound.normal).collect();
         let way = along(way, &planes, S::crease);
-        // What holds has taken the fall; who falls may slide back down a slope that it runs at.
+        // A bound that holds has cancelled the fall. A falling character may slide back down a slope that it runs at.
         let wish = if holds && !is_rising { self.gait.level(left) } else { left };
         let does_lead_on = way.dot(wish) > 0.0 || way.dot(up) * rise.min(0.0) > 0.0;
         if does_lead_on { way } else { S::Point::ZERO }
     }
 
-    /// What leans over as a wall to who walks: which way leads into it along each ground that was met, or on the level
-    /// where there is none. A ceiling all but parallel to the ground is none: which way leads into it would be
-    /// rounding.
+    /// Adds overhangs as walls for a walking character: for each ground that was met, or the level if there is none,
+    /// the direction along the ground that leads away from the overhang. A ceiling almost parallel to the ground is
+    /// left out, since that direction would be noise.
     fn add_walls_over(&self, bounds: &[Bound<S>], walls: &mut Planes<S>) {
         let up = self.gait.up;
         let is_over = |bound: &&Bound<S>| bound.normal.dot(up) <= -UPRIGHT;
@@ -281,14 +285,14 @@ impl<S: Walks> Mover<'_, S> {
             for floor in grounds().chain(level) {
                 let aside = over.normal - floor * (over.normal.dot(up) / floor.dot(up));
                 if let (Some(wall), true) = (aside.unit(), aside.length() > LEAST_ASIDE) {
-                    // One for each two planes, at most.
+                    // There is at most one for each two planes.
                     let _ = walls.try_push(wall);
                 }
             }
         }
     }
 
-    /// Goes until something is in the way. Tells which share of the way was gone, and what is in the way if it was
+    /// Moves until something is in the way. Returns which share of the way was covered, and the obstacle if that was
     /// not all.
     fn go(&mut self, way: S::Point) -> (f64, Option<Hit<S>>) {
         let length = way.length();
@@ -300,15 +304,15 @@ impl<S: Walks> Mover<'_, S> {
         if free < length { (free / length, hit) } else { (1.0, None) }
     }
 
-    /// The first obstacle within some metres of a direction, or little more: of the direction as f32 has it, which
-    /// is told, too.
+    /// The first obstacle within some metres along a direction, or a little more. The direction is rounded to f32, and
+    /// returned, too.
     fn look(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
         self.look_on(direction, metres + OUTLOOK * self.gait.skin)
     }
 
-    /// The first obstacle below within some metres of the way down, or little more.
+    /// The first obstacle within some metres below, or a little more.
     ///
-    /// What holds may be as steep as the edge of a step, and that far ahead one is a skin away from it.
+    /// A surface that holds may be as steep as the edge of a step, and is met that far ahead when it is a skin away.
     fn look_down(&self, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
         self.look_on(-self.gait.up, metres + self.outlook_down())
     }
@@ -317,7 +321,7 @@ impl<S: Walks> Mover<'_, S> {
         self.gait.skin / self.gait.steepest.min(EDGE_HOLD)
     }
 
-    /// The first obstacle within so many metres.
+    /// The first obstacle within some metres.
     fn look_on(&self, direction: S::Point, metres: f64) -> Option<(S::Point, Option<Hit<S>>)> {
         let cast = S::narrow(direction.unit()? * metres);
         let length = S::wide(cast).length();
@@ -341,8 +345,8 @@ impl<S: Walks> Mover<'_, S> {
         }
     }
 
-    /// What carries a character that stands: the plane of a face, which it goes along, up and down; on an edge, that it
-    /// goes no further down.
+    /// The bound that carries a standing character: the plane of a face, along which it moves up and down; on an edge,
+    /// a level plane, so that it goes no further down.
     fn footing(&self, hit: &Hit<S>) -> Bound<S> {
         let Gait { up, skin, .. } = self.gait;
         let bound = self.bound(hit);
@@ -357,8 +361,8 @@ impl<S: Walks> Mover<'_, S> {
     /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which
     /// there is ground.
     ///
-    /// The normal at an edge is wherever round feet happen to touch it. What counts there is the surface just behind,
-    /// of whichever body.
+    /// The normal at an edge depends on where round feet happen to touch it. What counts there is the surface just
+    /// behind, of whichever body.
     fn holds(&self, hit: &Hit<S>) -> bool {
         let Gait { up, skin, steepest, step, .. } = self.gait;
         let rise = hit.normal.dot(up);
@@ -368,7 +372,7 @@ impl<S: Walks> Mover<'_, S> {
         let Some(inwards) = self.gait.level(-hit.normal).unit() else { return false };
         let Some(depth) = S::reach((self.shape, &self.pose), -up) else { return false };
         let height = (hit.point - S::position(&self.pose)).dot(up) + depth;
-        // By two skins: one that it stands above the ground, and one that it would stand above the step.
+        // Two skins: one by which it stands above the ground, and one by which it would stand above the step.
         if step <= 0.0 || rise < EDGE_HOLD || height > step + 2.0 * skin {
             return false;
         }
@@ -377,8 +381,8 @@ impl<S: Walks> Mover<'_, S> {
         found.is_some_and(|found| !found.inside && S::wide(found.normal).dot(up) >= steepest)
     }
 
-    /// What a ray enters first, at most its own length away. Asked one by one, so that it can be asked within a query
-    /// and needs no memory there.
+    /// What a ray enters first, within its own length. By a visitor, so that it works within a query without memory of
+    /// its own.
     fn first_entered(&self, ray: &S::Ray) -> Option<Enter<S>> {
         let mut first: Option<Enter<S>> = None;
         let rank = |entered: &Enter<S>| (!entered.inside, entered.distance, slot_of(entered.body));
@@ -391,8 +395,8 @@ impl<S: Walks> Mover<'_, S> {
         first
     }
 
-    /// Climbs a step: up, on, and down to where one can stand. Tells which share of the way it led; where it leads
-    /// nowhere, nothing has moved.
+    /// Climbs a step: up, forward, and down to where it can stand. Returns which share of the way was covered; if
+    /// climbing fails, nothing has moved.
     fn climb(&mut self, way: S::Point) -> Option<f64> {
         let before = self.pose;
         let climbed = self.try_climb(way);
@@ -409,7 +413,7 @@ impl<S: Walks> Mover<'_, S> {
         let foot = from.dot(up) - S::reach((self.shape, &self.pose), -up)?;
         self.go(up * step);
         let rise = (S::position(&self.pose) - from).dot(up);
-        // The step is a skin away: who goes on by less stands before it still.
+        // The step is a skin away: after a shorter move the shape is still in front of it.
         self.go(unit * length.max(2.0 * skin));
         let advance = (S::position(&self.pose) - from).dot(unit);
         if advance <= skin {
@@ -417,7 +421,7 @@ impl<S: Walks> Mover<'_, S> {
         }
         let (down, hit) = self.look_down(rise)?;
         let hit = hit.filter(|hit| self.holds_below(hit, down, rise))?;
-        // Round feet would get over more than they are lifted; and feet are a skin above the ground.
+        // Round feet would climb more than they are lifted; and feet are a skin above the ground.
         if hit.point.dot(up) - foot > step - skin * 0.5 {
             return None;
         }
@@ -425,7 +429,7 @@ impl<S: Walks> Mover<'_, S> {
         Some((advance / length).min(1.0))
     }
 
-    /// Whether it could stand on what is below, once it is down there.
+    /// Whether the character could stand on an obstacle below, once it is down there.
     fn holds_below(&self, hit: &Hit<S>, down: S::Point, reach: f64) -> bool {
         let fall = hit.until(self.gait.skin);
         let Some(pose) = S::moved(&self.pose, down * fall) else { return false };
@@ -433,7 +437,8 @@ impl<S: Walks> Mover<'_, S> {
         fall <= reach.max(self.gait.skin) && there.holds(hit)
     }
 
-    /// The ground within reach below, and down to it. Ground a skin further down counts as stood on, too.
+    /// Finds the ground within reach below, and moves down to it. Ground up to a skin further down counts as stood on,
+    /// too.
     fn land(&mut self, reach: f64) -> Option<Hit<S>> {
         let (down, hit) = self.look_down(reach)?;
         let hit = hit?;
@@ -444,8 +449,8 @@ impl<S: Walks> Mover<'_, S> {
         Some(hit)
     }
 
-    /// The ground that is stood on where something steep beside it is met first on the way down, of the same body or
-    /// another.
+    /// The ground that the character stands on, where a cast down meets something steep beside it first, of the same
+    /// body or another.
     fn ground_beside(&self) -> Option<Hit<S>> {
         let cast = S::narrow(-self.gait.up * self.outlook_down());
         let (length, unit) = (S::wide(cast).length(), S::wide(cast).unit()?);
@@ -456,13 +461,13 @@ impl<S: Walks> Mover<'_, S> {
     }
 }
 
-/// Takes note of a wall, once.
+/// Notes a wall, once.
 fn note<S: Walks>(slid: &mut Slid<S>, wall: Noted<S>) {
     let normal = S::wide(wall.normal);
     let is_same =
         |known: &Noted<S>| known.body == wall.body && S::wide(known.normal).dot(normal) >= 1.0 - STANDSTILL;
     if !slid.walls.iter().any(is_same) {
-        // More than eight are not told.
+        // More than eight are not reported.
         let _ = slid.walls.try_push(wall);
     }
 }

@@ -35,7 +35,7 @@ impl Walk3 {
     /// # Errors
     /// An `up` that is not finite, or zero. If no direction is to be up, set the field to zero afterwards.
     pub fn new(shape: &Shape3, up: Vec3) -> Result<Self, DirectionError> {
-        // Whether it is a direction is the same question.
+        // A half-space's normal must be a direction, too: the same check.
         HalfSpace::new(up)?;
         Ok(Self::for_size(Volume::size(shape), up))
     }
@@ -248,7 +248,7 @@ impl Walks for Volume {
 
     fn crease(one: DVec3, other: DVec3) -> Option<DVec3> {
         let across = one.cross(other);
-        // Of planes that are parallel up to rounding, it is rounding.
+        // For planes that are parallel up to rounding, the crease would be noise.
         if across.length() <= STANDSTILL { None } else { across.unit() }
     }
 }

@@ -68,7 +68,7 @@ impl World<Plane> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                // The arrow of what has no end leads out of it where lengths are below zero.
+                // With a negative length, the arrow of an unbounded shape points out of it.
                 let is_endless = shape.outer_radius().is_infinite();
                 if region.is_none_or(|region| is_endless || shape.bounds(pose, 0.0).overlaps(region)) {
                     outline(shape, pose, options, &mut |from, to| line(from, to, what));
@@ -192,7 +192,7 @@ fn outline(shape: &Shape2, pose: &Pose2, options: &DebugOptions, line: &mut dyn 
     }
 }
 
-/// The line of a half-plane, and where its inside is.
+/// The line of a half-plane, and an arrow to its inside.
 fn border(half_plane: &HalfPlane, pose: &Pose2, options: &DebugOptions, line: &mut dyn FnMut(DVec2, DVec2)) {
     let normal = pose.rotation().turn(half_plane.unit_normal());
     let (center, along) = (pose.position(), normal.perp() * options.half_patch());
@@ -200,7 +200,7 @@ fn border(half_plane: &HalfPlane, pose: &Pose2, options: &DebugOptions, line: &m
     line(center, center - normal * options.length_of_normal());
 }
 
-/// Around a centre, counter-clockwise from one arm to another of the same length, at most half a turn.
+/// An arc around a centre, counter-clockwise from one arm to another of the same length, at most half a turn.
 fn arc(center: DVec2, [from, to]: [DVec2; 2], halvings: u32, line: &mut dyn FnMut(DVec2, DVec2)) {
     if halvings == 0 {
         return line(center + from, center + to);

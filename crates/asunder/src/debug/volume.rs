@@ -76,9 +76,9 @@ impl World<Volume> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                // The arrow of what has no end leads out of it where lengths are below zero.
+                // With a negative length, the arrow of an unbounded shape points out of it.
                 let is_endless = shape.outer_radius().is_infinite();
-                // Of a region without end, as far as the body goes: turned into its axes, infinities are no numbers.
+                // An unbounded region is cut to the body's box: infinities turned into its axes would be NaN.
                 let there = region.map(|region| shape.bounds(pose, 0.0).intersection(region));
                 if is_endless || there != Some(None) {
                     let there = there.flatten();
@@ -161,8 +161,8 @@ fn box_edges(low: DVec3, high: DVec3, line: &mut impl FnMut(DVec3, DVec3)) {
     }
 }
 
-/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them. Of ground, what
-/// may reach into a region is enough.
+/// The outline of a posed shape: faces moved out by the radius, and arcs over the edges between them. Of ground, only
+/// what may reach into a region.
 fn outline(
     (shape, pose): (&Shape3, &Pose3),
     region: Option<&Aabb3>,
@@ -193,7 +193,7 @@ fn outline(
 fn edges(ground: Ground<'_>, pose: &Pose3, region: Option<&Aabb3>, line: &mut dyn FnMut(DVec3, DVec3)) {
     let mut near = Vec::new();
     if let Some(region) = region {
-        // Both triangles of an edge that reaches in do so, too.
+        // If an edge reaches in, both its triangles do.
         let _ = ground.visit_near(&seen_from(pose, region), |triangle| {
             near.push(triangle);
             ControlFlow::Continue(())
@@ -219,7 +219,7 @@ fn seen_from(pose: &Pose3, region: &Aabb3) -> Aabb3 {
     let corners = (0..8).map(|i| pose.transform_back(corner(i)));
     let far = DVec3::splat(f64::INFINITY);
     let (low, high) = corners.fold((far, -far), |(low, high), at| (low.min(at), high.max(at)));
-    // More than f32 rounds, of a region and of ground.
+    // More than the f32 rounding of the region and of ground.
     let reach = region.min.abs().max(region.max.abs()).max_element();
     let slack = 1e-6 * (low.abs().max_element() + high.abs().max_element() + f64::from(reach));
     Aabb3::new((low - slack).as_vec3(), (high + slack).as_vec3())
@@ -276,7 +276,7 @@ fn rod([from, to]: [DVec3; 2], radius: f64, line: &mut dyn FnMut(DVec3, DVec3)) 
     }
 }
 
-/// A square of a half-space's border, its diagonals, and where its inside is.
+/// A square of a half-space's border, its diagonals, and an arrow to its inside.
 fn patch(half_space: &HalfSpace, pose: &Pose3, options: &DebugOptions, line: &mut dyn FnMut(DVec3, DVec3)) {
     let normal = pose.basis().turn(half_space.unit_normal());
     let (across, over) = normal.any_orthonormal_pair();
@@ -297,7 +297,7 @@ fn circle(center: DVec3, [x, y]: [DVec3; 2], line: &mut dyn FnMut(DVec3, DVec3))
     }
 }
 
-/// Around a centre, the short way from one arm to another of the same length; straight where they are opposite.
+/// An arc around a centre, the short way from one arm to another of the same length; a line where they are opposite.
 fn arc(center: DVec3, [from, to]: [DVec3; 2], halvings: u32, line: &mut dyn FnMut(DVec3, DVec3)) {
     let (sum, length) = (from + to, from.length());
     if halvings == 0 || sum.length() <= 1e-3 * length {

@@ -1,15 +1,15 @@
 //! Works through the candidate pairs, chunk by chunk.
 //!
 //! ```text
-//! walk the pairs of a chunk beside its candidates of last update:                                (choose)
-//!   neither body moved: the pair is carried on, with its hint, contact and manifolds
-//!   they were apart, and have not gone as far since as they would have to: it is carried on too
-//! look at the others:                                                                       (answer)
-//!   their bodies hardly drifted since the manifold was made: it is moved along
-//!   else: the narrow phase is asked, with the hint that the pair has
-//! candidates and contacts of them all, in order                                             (settle)
+//! walk the pairs of a chunk beside its candidates of last update:                           (choose)
+//!   neither body moved: the pair is carried over, with its hint, contact and manifolds
+//!   they were apart, and have not moved far enough since to meet: it is carried over too
+//! for the other pairs:                                                                      (answer)
+//!   the bodies hardly drifted since the manifold was made: it is moved along
+//!   else: the narrow phase, with the pair's hint
+//! write candidates and contacts of all pairs, in order                                      (settle)
 //! ```
-//! What becomes of a chunk is a function of its pairs and of what was before.
+//! A chunk's result is a function of its pairs and of last update's lists.
 
 use super::settle::{Both, Settled};
 use crate::collider::Collider;
@@ -34,7 +34,7 @@ pub(crate) fn manifolds_at<'a, M>(place: &Place, chunks: &'a [Batch<M>]) -> &'a 
     chunks.get(place.chunk as usize).and_then(|answered| answered.manifolds.get(range)).unwrap_or_default()
 }
 
-/// A chunk of pairs, by its number; and where what becomes of them goes.
+/// A chunk of pairs, by its number, and where its results go.
 pub(super) struct Chunk<'c, S: Space> {
     pub(super) number: usize,
     pub(super) candidates: &'c mut Vec<Candidate<S::Key>>,
@@ -61,7 +61,7 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) last_candidates: &'a Candidates<S::Key>,
     pub(super) last_records: &'a Records<S::Key>,
     pub(super) last_answered: &'a [Batch<S::Manifold>],
-    /// Memory of what was kept to be moved along.
+    /// Memory of persistent manifolds that are no longer kept.
     pub(super) spare: Mutex<&'a mut S::Spare>,
     pub(super) persistent: &'a Slab<S::Persistent>,
 }
@@ -69,14 +69,14 @@ pub(super) struct Asker<'a, S: Space> {
 /// What is done about a pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Way {
-    /// It is what it was.
+    /// Nothing can have changed: carried over.
     Carried,
-    /// Somebody must look at it.
+    /// Not decided yet.
     Open,
-    /// Its manifolds were moved along: so many, from this one on. With what is told of the bodies: they have just been
-    /// read.
+    /// Its manifolds were moved along: `count` of them, from `at` on. With the bodies' user data, as they have just
+    /// been read.
     Moved { at: u32, count: u32, overlapping: bool, user_data: (u64, u64) },
-    /// The narrow phase is asked.
+    /// Passed to the narrow phase.
     Asked,
 }
 
@@ -93,16 +93,16 @@ impl<S: Space> Asker<'_, S> {
         self.settle(chunk);
     }
 
-    /// Which pairs are carried on, and what is known of the others. Pairs are sorted, and so are last update's: one
-    /// walk.
+    /// Decides which pairs are carried over, and collects what is known of the others. Pairs are sorted, and so are
+    /// last update's: one walk.
     fn choose(&self, pairs: &[PairId], chunk: &mut Chunk<'_, S>) {
         let Chunk { number, candidates, settled, .. } = chunk;
-        // What is before the first chunk's first pair is its own, too.
+        // Last update's candidates before the first chunk's first pair belong to it, too.
         let first = if *number == 0 { None } else { self.firsts.get(*number).copied() };
         let end = self.firsts.get(*number + 1).copied();
         let mut slices = self.last_candidates.between(first, end);
         let mut last: &[Candidate<S::Key>] = &[];
-        // What is there already is written over.
+        // Elements that are there already are overwritten.
         candidates.resize(pairs.len(), blank());
         for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
             let mut before = None;
@@ -150,12 +150,12 @@ impl<S: Space> Asker<'_, S> {
         last.iter().chain(slices.flatten()).for_each(|gone| settled.give_up(gone));
     }
 
-    /// Moves manifolds along, or asks the narrow phase.
+    /// Moves manifolds along, or calls the narrow phase.
     ///
-    /// A loop of its own, and a short one: bodies and what is kept lie all over memory, and the next ones are fetched
-    /// while these are waited for. In one loop with the choice, moving along took 13 to 19 % more samples (2026-11-23).
-    /// Tried: the margins of 32 pairs' bodies read ahead, in a loop of its own: boxes at rest 10 % slower, mixed 2 %
-    /// (AMD EPYC, Zen 4, 2026-11-25).
+    /// A loop of its own, and a short one: bodies and persistent manifolds lie all over memory, and the processor
+    /// fetches the next ones while it waits for these. In one loop with the choice, moving along took 13 to 19 % more
+    /// samples (2026-11-23). Tried: the margins of 32 pairs' bodies read ahead, in a loop of its own: boxes at rest 10
+    /// % slower, mixed 2 % (AMD EPYC, Zen 4, 2026-11-25).
     fn answer(&self, chunk: &mut Chunk<'_, S>) {
         let Chunk { candidates, answered, settled, .. } = chunk;
         let Settled { ways, bullets, .. } = &mut **settled;
@@ -164,7 +164,7 @@ impl<S: Space> Asker<'_, S> {
             let Way::Open = way else { continue };
             let Candidate { pair, keys, hint, persistent, .. } = *candidate;
             let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) else { continue };
-            // Who is on its way has changed, and none of its pairs is carried on: all of them come by here.
+            // A body with a motion counts as changed, so none of its pairs is carried over: all of them come by here.
             if (a.bullet || b.bullet) && self.is_going(pair) {
                 let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
                 bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
@@ -188,7 +188,7 @@ impl<S: Space> Asker<'_, S> {
         S::collide(&jobs, answered);
     }
 
-    /// By how much the bodies' motions may bring them nearer. A sensor looks no further than it reaches.
+    /// By how much the bodies' motions may bring them nearer. Sensors have no speculative contacts.
     #[inline]
     fn approach(&self, pair: PairId, (a, b): Both<'_, S>) -> f32 {
         if self.motions.is_empty() || a.sensor || b.sensor {
@@ -198,15 +198,15 @@ impl<S: Space> Asker<'_, S> {
     }
 }
 
-/// What is written over.
+/// A placeholder that is overwritten.
 fn blank<K: Key>() -> Candidate<K> {
     let (pair, keys) = (PairId { a: 0, b: 0 }, (K::null(), K::null()));
     let (persistent, contact) = (NOWHERE, ContactNumber::NONE);
     Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
 }
 
-/// Whether what was learnt of a pair is about another shape than the one a body has now. Asked of every pair, and
-/// mostly there is no such body: then it is no call.
+/// Whether what is known of a pair is about another shape than a body has now. Checked for every pair; mostly there is
+/// no such body, and then no call.
 #[inline(always)]
 fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
     !reshaped.is_empty() && is_either_among(reshaped, pair)

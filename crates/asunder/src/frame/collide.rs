@@ -2,41 +2,43 @@
 //!
 //! ```text
 //! cut the pairs into chunks: where they were cut last time, as long as none has grown too large
-//! of chunks with the same pairs as then, none of whose bodies moved, keep the lists as they are
+//! chunks with the same pairs as then, none of whose bodies moved, keep their lists
 //! for each other chunk, in parallel:
-//!   what is carried on, moved along, or asked about                                         (ask)
-//!   candidates and contacts, and what of last update's goes on                              (settle)
+//!   each pair is carried over, moved along, or passed to the narrow phase                   (ask)
+//!   candidates and contacts are written, and last update's that go on or end are noted      (settle)
 //! ```
-//! Most of a frame of bodies that rest is waiting for memory. What bought what, of heaps and pyramids of boxes (AMD
+//! A frame of bodies at rest mostly waits for memory. What each technique bought, in heaps and pyramids of boxes (AMD
 //! EPYC, Zen 4, 2026-11-22 and -23):
 //!
-//! 1. manifolds stay in the list of the chunk that made them: 17 % of the time was copying, and 3 % is;
-//! 2. bodies are read once, while a pair is asked about: a twentieth;
-//! 3. candidates, contacts and whether they are new are written down chunk by chunk, too, and no longer by one thread
-//!    for all: 0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames that all but rest;
-//! 4. a list of points has nothing to drop: forgetting last frame's manifolds read each of them once more, a
-//!    twenty-fifth;
-//! 5. a candidate knows the number of its contact, and last update's contacts are not walked beside the pairs: a
+//! 1. manifolds stay in the list of the chunk that made them: copying took 17 % of the time, and takes 3 %;
+//! 2. bodies are read once, while their pair is processed: a twentieth;
+//! 3. candidates, contacts and whether they are new are written chunk by chunk, too, and no longer by one thread for
+//!    all: 0.78 to 0.90 of a frame on two threads. On one thread it costs 3 to 10 % of frames of bodies almost at rest;
+//! 4. a list of points has no destructor: dropping last frame's manifolds read each of them once more, a twenty-fifth;
+//! 5. a candidate holds the number of its contact, so last update's contacts are not walked beside the pairs: a
 //!    twentieth;
-//! 6. points of 36 bytes in place of 40, by ids of two halves: heaps of boxes another twentieth, pyramids nothing;
-//! 7. where every body moves that may, no contact is carried on, and manifolds are written over last update's, which is
-//!    less memory in turn: 1.03 times as fast;
-//! 8. what is kept to be moved along in 248 bytes in place of 304, points by one of their ends: 1.03 to 1.06 times;
-//! 9. chunks in which nothing moved are not looked at, and chunks go on for that: a heap of 8,000 boxes at rest, 93,560
-//!    pairs, in 0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27; `frame/asleep` of the
-//!    bench `frame`). Where all move, 2 % more instructions. Tried: going on there as well, with room to grow: lists
-//!    took longer to come to their largest.
+//! 6. points of 36 bytes in place of 40, thanks to ids of two halves: heaps of boxes another twentieth, pyramids
+//!    nothing;
+//! 7. where every body moves that may, no contact is carried over, so manifolds are written over last update's, which
+//!    touches less memory: 1.03 times as fast;
+//! 8. persistent manifolds of 248 bytes in place of 304, with one end of each point: 1.03 to 1.06 times;
+//! 9. chunks in which nothing moved are skipped, and for that chunks persist between updates: a heap of 8,000 boxes at
+//!    rest, 93,560 pairs, in 0.3 ms in place of 8 (Intel Xeon, family 6 model 106, one thread, 2026-11-27;
+//!    `frame/asleep` of the bench `frame`). Where all move, 2 % more instructions. Tried: chunks that persist there as
+//!    well, with room to grow: lists took longer to reach their largest size.
 //!
-//! Tried, on one thread (medians of runs next to each other, on a busy machine): chunks of 128 pairs, 9 % slower than
-//! 256: each has lists of its own, and begins with waiting for each of them. What is kept to be moved along in a box of
-//! its own: pyramids 8 % slower, hulls faster. What is kept fetched six pairs ahead: nothing, hulls 10 % slower; it is
-//! not one wait that counts, but how much there is to read. By the processor's own instruction, while its pair is
-//! chosen, a heap of boxes at rest is 1.02 times as fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth code
-//! that is unsafe. Leaving out pairs that are still apart without a branch halved what a simulated processor predicted
-//! wrongly, and saved no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
+//! Tried, on one thread (medians of runs next to each other, on a busy machine):
 //!
-//! Kernels here and below shun `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
-//! time of such a frame and half of a sweep's; by default they are not, and nothing is gained.
+//! - Chunks of 128 pairs, 9 % slower than 256: each has lists of its own, and begins with waiting for each of them.
+//! - Persistent manifolds in a `Box` of their own: pyramids 8 % slower, hulls faster.
+//! - Persistent manifolds prefetched six pairs ahead: no gain, hulls 10 % slower; it is not one wait that counts, but
+//!   how much there is to read. By the processor's prefetch instruction, while its pair is chosen, a heap of boxes at
+//!   rest is 1.02 times as fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth unsafe code.
+//! - Skipping pairs that are still apart without a branch halved the mispredictions of a simulated processor, and saved
+//!   no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
+//!
+//! Kernels here and below avoid `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
+//! time of such a frame and half of a sweep's; by default they are inlined, and nothing is gained.
 
 use super::ask::{Asker, Chunk};
 use super::both;
@@ -50,7 +52,7 @@ use asunder_narrow::Batch;
 use slotmap::Key;
 use std::sync::Mutex;
 
-/// Brings candidates up to date, and finds the contacts of each chunk.
+/// Brings the candidates up to date, and finds the contacts of each chunk.
 pub(super) fn collide<S: Space>(world: &mut World<S>) {
     if world.stats.overflow {
         return;
@@ -75,13 +77,13 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// Puts last update's lists aside, and begins with chunks: where most bodies are at rest, of those that were, as long
-/// as none grows too large and there are not far too many; else they are cut anew. Whether what the chunks handed over
-/// last is still of these chunks.
+/// Puts last update's lists aside, and sets up the chunks. Where most bodies are at rest, last update's chunks go on,
+/// as long as none grows too large and there are not far too many; else chunks are cut anew. Returns whether the
+/// chunks' last results still belong to these chunks.
 fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     let World { candidates, records, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, is_settled, last_candidates, last_records, .. } = scratch;
-    // Of a world's first pairs, all are asked about.
+    // A world's first pairs are all passed to the narrow phase.
     let asked = settled.iter().map(|settled| settled.tally.asked).reduce(|all, asked| all + asked);
     let size = chunk_of(pairs.len(), asked.unwrap_or(pairs.len()));
     core::mem::swap(candidates, last_candidates);
@@ -94,7 +96,7 @@ fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     if goes_on {
         candidates.begin_at(last_candidates.firsts().iter().copied());
     } else {
-        // Of those that may go on, with room to grow.
+        // Chunks that may go on get room to grow.
         let cut = if do_most_rest { size - size / 4 } else { size };
         candidates.begin_at(pairs.iter().step_by(cut).copied());
         candidates.ends_in(pairs, chunk_ends);
@@ -108,7 +110,7 @@ fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     were_settled && goes_on
 }
 
-/// Of chunks in which nothing can have changed, takes last update's lists as they are.
+/// Takes over last update's lists, as they are, of chunks in which nothing can have changed.
 fn keep_quiet<S: Space>(world: &mut World<S>) {
     let World { candidates, records, answered, is_moved, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, last_candidates, last_records, last_answered, .. } = scratch;
@@ -129,15 +131,15 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// Whether a body may stay where it is that may meet another that does: else no contact is carried on, and last
-/// update's manifolds may be written over. Cost: linear in all bodies: where most are at rest, nobody asks.
+/// Whether any body that is not fixed stayed where it is: else no contact is carried over, and last update's manifolds
+/// may be overwritten. Cost: linear in all bodies, so it is not called where most are at rest.
 fn does_any_stay<K: Key>(keys: &[K], tags: &[Tag], is_moved: &[bool]) -> bool {
     let mut bodies = keys.iter().zip(tags).zip(is_moved);
     bodies.any(|((key, tag), is_moved)| !is_moved && !tag.is_fixed() && !key.is_null())
 }
 
-/// Makes the lists that were not needed as roomy as the others: so that a body that stays allocates nothing then, and
-/// memory stops growing as soon as if both lists took turns. Memory that nobody writes to costs no time.
+/// Gives the lists that were not needed the capacity of the others, so that a body that stays later allocates nothing,
+/// and memory stops growing as soon as if both lists took turns. Memory that nobody writes to costs no time.
 fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
     if others.len() < answered.len() {
         others.resize_with(answered.len(), Batch::default);
@@ -183,7 +185,7 @@ fn ask<S: Space>(world: &mut World<S>, do_most_rest: bool) {
     });
 }
 
-/// As many of a list as are needed; the others are cleared.
+/// The first `count` of a list, which grows if need be; the others are cleared.
 fn room_for<T: Default>(count: usize, list: &mut Vec<T>, clear: impl Fn(&mut T)) -> &mut [T] {
     if list.len() < count {
         list.resize_with(count, T::default);
@@ -193,7 +195,7 @@ fn room_for<T: Default>(count: usize, list: &mut Vec<T>, clear: impl Fn(&mut T))
     some
 }
 
-/// Chunks, one after the other, from the first of them on.
+/// Consecutive chunks, from number `first` on.
 struct Part<'c, S: Space> {
     first: usize,
     candidates: &'c mut [Vec<Candidate<S::Key>>],
@@ -203,7 +205,7 @@ struct Part<'c, S: Space> {
 }
 
 impl<S: Space> Part<'_, S> {
-    /// Works through the chunks: through one of them, or through either half, on two threads where there are.
+    /// Works through the chunks: a single one, or both halves, on two threads if possible.
     fn work(self, asker: &Asker<'_, S>) {
         if self.settled.iter().all(Settled::is_quiet) {
             return;

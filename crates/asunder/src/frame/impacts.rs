@@ -1,11 +1,11 @@
 //! After the contacts: what bullets run into during their motions.
 //!
 //! ```text
-//! of each candidate pair with a bullet, and a motion: when do they first touch?      in parallel
+//! for each candidate pair with a bullet, and a motion: when do they first touch?     in parallel
 //! sort by bullet, then by time; cut each bullet's list after the first that is solid
 //! ```
-//! What overlaps at the start is a contact already; of bodies of several parts, the others are asked, and what is flush
-//! with what the bullet touches is passed over (`next_impact_beside`).
+//! Parts that overlap at the start are a contact already. The other parts of such bodies are tested, and those flush
+//! with what the bullet touches are passed over (`next_impact_beside`).
 
 use super::touches::Touches;
 use crate::motion::Hit;
@@ -16,7 +16,7 @@ use crate::world::{Scratch, World, slot_of};
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 64;
 
-/// One answer: the bullet's slot, the share of its motion, the other's slot; and what is told of it.
+/// One impact: the bullet's slot, the fraction of its motion, the other's slot; and what is reported.
 pub(crate) type Found<S> = (u32, f64, u32, Hit<<S as Space>::Key, <S as Space>::Impact>);
 
 /// Brings the impacts up to date, and forgets the motions.
@@ -40,8 +40,8 @@ pub(super) fn impacts<S: Space>(world: &mut World<S>) {
     world.forget_motions();
 }
 
-/// Asks about every pair with a bullet that was found while the narrow phase looked at both: nobody else reads all
-/// candidates.
+/// Computes the impact of every pair with a bullet. The pairs were noted by the collide stage, the only one that reads
+/// all candidates.
 fn ask<S: Space>(world: &mut World<S>) {
     let Scratch { settled, of_bullets, .. } = &mut world.scratch;
     of_bullets.clear();

@@ -1,9 +1,9 @@
-//! Stage 4: what the chunks hand over.
+//! Stage 4: the chunks' results, put together.
 
 use crate::space::Space;
 use crate::world::{Scratch, World};
 
-/// Puts together what of last update's contacts is over, and what is kept to be moved along in its place.
+/// Gathers the contacts that ended, and puts persistent manifolds into their places.
 pub(super) fn merge<S: Space>(world: &mut World<S>) {
     let World { candidates, records, persistent, reshaped, stats, scratch, .. } = world;
     let Scratch { settled, spare, ended, last_records, .. } = scratch;

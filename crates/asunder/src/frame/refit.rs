@@ -10,13 +10,13 @@ use slotmap::Key;
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 1024;
 
-/// Boxes that a thread makes in one go, at most: another one that was asleep comes late, and takes
-/// what is left. Of 1,024 at once, 8,005 boxes took two threads 0.17 ms for 0.15 (AMD EPYC, Zen 4, 2026-11-26).
+/// Most boxes that a thread makes in one go: a thread that was asleep comes late, and takes what is left. With 1,024 at
+/// once, 8,005 boxes took two threads 0.17 ms for 0.15 (AMD EPYC, Zen 4, 2026-11-26).
 #[cfg(feature = "parallel")]
 const AT_ONCE: usize = 256;
 
-/// Makes the boxes of all bodies that moved, or came, since the last update; those of bodies that went, or are
-/// disabled, are empty sets.
+/// Makes the boxes of all bodies that moved or were inserted since the last update. Those of removed or disabled bodies
+/// are empty.
 pub(super) fn refit<S: Space>(world: &mut World<S>) {
     let World { bodies, keys, boxes, dirty, is_dirty, moved, is_moved, motions, stats, .. } = world;
     stats.moved = dirty.iter().filter(|&&slot| !keys[slot as usize].is_null()).count();
@@ -36,7 +36,7 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
     for &slot in &*dirty {
         let index = slot as usize;
         is_dirty[index] = false;
-        // After an update that overflowed it may stand there still.
+        // After an update that overflowed it may still be in the list.
         if !core::mem::replace(&mut is_moved[index], true) {
             moved.push(slot);
         }
@@ -44,7 +44,7 @@ pub(super) fn refit<S: Space>(world: &mut World<S>) {
     dirty.clear();
 }
 
-/// How many of so many slots one thread works at in one go.
+/// How many of `count` slots one thread processes in one go.
 fn share_of(count: usize) -> usize {
     #[cfg(feature = "parallel")]
     if count >= MIN_PARALLEL && rayon::current_num_threads() > 1 {
@@ -53,8 +53,8 @@ fn share_of(count: usize) -> usize {
     count
 }
 
-/// Makes the boxes of some slots, each in its place in a list that begins with a certain slot's: where they are more
-/// than one share, and then they ascend, in halves, each on a thread.
+/// Makes the boxes of some slots; `boxes` begins with that of the slot `first`. More slots than one share must ascend,
+/// and are split in halves, each on a thread.
 fn make<A: Send>(
     slots: &[u32],
     (first, boxes): (usize, &mut [A]),

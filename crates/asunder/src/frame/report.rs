@@ -7,8 +7,8 @@ use crate::space::Space;
 use crate::world::{Scratch, World};
 use slotmap::Key;
 
-/// Writes the events in pair order, then the index of records by their second body. Of records, only those of chunks
-/// with a new one are read; where each has its contacts with the bodies that it had them with, the index is what it was.
+/// Writes the events in pair order, then the index of records by their second body. Records are read only in chunks
+/// that have a new one. Where every chunk's records have the second bodies that they had, the index stays as it is.
 pub(super) fn report<S: Space>(world: &mut World<S>) {
     let World { keys, candidates, records, events, by_second, stats, scratch, .. } = world;
     let Scratch { ended, settled, seconds, ends, .. } = scratch;
@@ -29,7 +29,7 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
 
     stats.candidates = candidates.len();
     if stats.overflow {
-        // Nobody has counted those that stay.
+        // The contacts that stay have not been counted.
         stats.contacts = records.all().count();
         stats.overlapping = records.all().filter(|record| record.overlapping).count();
         stats.manifolds = records.all().map(|record| record.manifolds.count()).sum();
@@ -44,11 +44,11 @@ pub(super) fn report<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// The numbers of the records in order of their second bodies, which are listed chunk by chunk; then of the first, in
-/// which order they come.
+/// Lists the numbers of the records in order of their second body, then of their first. The second bodies are given
+/// chunk by chunk, already in order of the first.
 ///
-/// By counting, which is twice as fast as sorting where most bodies touch; where few do, there are more slots than
-/// worth counting in.
+/// By counting sort, twice as fast where most bodies touch; where few do, the slots to count in are too many, and
+/// numbers are sorted.
 fn index_by_second<'a, L: Iterator<Item = &'a [u32]>>(
     (lists, count): (impl Fn() -> L, usize),
     slots: usize,
@@ -135,7 +135,7 @@ mod tests {
         assert!(is_in_order(&world) && world.records.len() == 1500);
         for movers in [1, 1000] {
             for round in 0..6 {
-                // A mark that lasts as long as nobody writes an index.
+                // A mark that lasts until an index is written.
                 world.by_second.reverse();
                 let by = if round % 2 == 0 { 1e-3 } else { -1e-3 };
                 crates.iter().take(movers).for_each(|&body| shift(&mut world, body, [0.0, by, 0.0]));

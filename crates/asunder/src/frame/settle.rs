@@ -1,7 +1,7 @@
-//! What came of the pairs of a chunk, as candidates and records, in their order.
+//! The results of a chunk's pairs, as candidates and records, in pair order.
 //!
-//! A candidate knows the number of its contact and whether that had begun, so that a contact that goes on is not looked
-//! up in last update's list.
+//! A candidate holds the number of its contact and whether that had begun, so a contact that goes on is not looked up
+//! in last update's list.
 
 use super::ask::{Asker, Chunk, Way, manifolds_at};
 use crate::collider::Collider;
@@ -24,39 +24,40 @@ struct Met {
     sensor: bool,
 }
 
-/// What a chunk hands over: what is everybody's is made of it when all chunks are done.
+/// What a chunk hands over: the shared lists are made from it when all chunks are done.
 #[derive(Debug)]
 pub(crate) struct Settled<S: Space> {
-    /// The chunk's pairs, as of when it was last looked at, if they were noted.
+    /// The chunk's pairs when it was last processed, if they were noted.
     pairs: Vec<PairId>,
     are_noted: bool,
-    /// Whether nobody looks at it in this update.
+    /// Whether it is skipped in this update.
     is_quiet: bool,
     /// What is done about each pair.
     pub(super) ways: Vec<Way>,
     /// Contacts of last update that are over, and had begun, by their numbers.
     pub(super) ended: Vec<u32>,
-    /// What is kept to be moved along, and of which pair of the chunk.
+    /// New persistent manifolds, and the chunk's pair that each belongs to.
     pub(super) kept: Vec<(u32, S::Persistent)>,
-    /// Places of what is kept no longer.
+    /// Places of persistent manifolds that are no longer kept.
     pub(super) vacated: Vec<u32>,
-    /// Each bullet that a motion may bring to somebody, and whom: as both sides, where both are bullets.
+    /// Each bullet that a motion may bring to another body, and that body; both ways round, where both are bullets.
     pub(super) bullets: Vec<(S::Key, S::Key)>,
     /// Memory for one kept manifold at most, lent by the store that all share.
     spare: S::Spare,
     pub(super) tally: Tally,
 }
 
-/// What is told of a chunk's records without reading them again: they are large, and far away by then.
+/// What later stages need of a chunk's records without reading them again: they are large, and out of the cache by
+/// then.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
-    /// The second body of each; while they are counted, those of the last count behind them.
+    /// The second body of each; during a count, followed by the rest of the last count's.
     pub(super) seconds: Vec<u32>,
-    /// So many were counted.
+    /// How many were counted so far.
     counted: usize,
     /// Whether the second bodies are others than those of the last count.
     pub(super) has_others: bool,
-    /// Pairs that were asked about.
+    /// Pairs that were passed to the narrow phase.
     pub(super) asked: usize,
     pub(super) new: usize,
     pub(super) overlapping: usize,
@@ -87,7 +88,7 @@ impl Tally {
         self.seconds.truncate(self.counted);
     }
 
-    /// What was counted last is of another world.
+    /// Drops the last count: it is another world's.
     pub(super) fn forget(&mut self) {
         self.seconds.clear();
     }
@@ -111,7 +112,7 @@ impl<S: Space> Default for Settled<S> {
 }
 
 impl<S: Space> Settled<S> {
-    /// Of what was handed over, keeps the memory: of a chunk that is none any more.
+    /// Empties it but keeps its memory: the chunk is no longer in use.
     pub(super) fn clear(&mut self) {
         self.start_over();
         self.tally.end();
@@ -137,20 +138,19 @@ impl<S: Space> Settled<S> {
         }
     }
 
-    /// Whether the chunk is what it was: the same pairs, nobody of them moved, and no contact of it was new at the last
-    /// update. A body that came to the slot of another counts as moved.
+    /// Whether nothing in the chunk can have changed: the same pairs, none of their bodies moved, and no contact was
+    /// new at the last update. A body that came to the slot of another counts as moved.
     pub(super) fn goes_on(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
         let is_still = |pair: &PairId| !is_moved[pair.a as usize] && !is_moved[pair.b as usize];
         self.tally.new == 0 && self.are_noted && pairs == self.pairs && pairs.iter().all(is_still)
     }
 
-    /// Somebody will look at it, unless it is kept quiet in this update as well.
+    /// It will be processed, unless it is kept quiet in this update as well.
     pub(super) fn wake(&mut self) {
         self.is_quiet = false;
     }
 
-    /// Nobody will look at it: all that it handed over last is handed over again, but for what has been done with
-    /// already.
+    /// It is skipped: its last results are handed over again, except those that later stages have consumed.
     pub(super) fn keep_quiet(&mut self) {
         self.is_quiet = true;
         self.tally.asked = 0;
@@ -162,28 +162,28 @@ impl<S: Space> Settled<S> {
         self.is_quiet
     }
 
-    /// Gives up the place of what is kept no longer, if it has one.
+    /// Gives up the place of a persistent manifold, if there is one.
     pub(super) fn vacate(&mut self, place: u32) {
         if place != NOWHERE {
             self.vacated.push(place);
         }
     }
 
-    /// Of a pair that is none any more, and all that was its.
+    /// Gives up all that belongs to a pair that is no longer a candidate.
     pub(super) fn give_up(&mut self, gone: &Candidate<S::Key>) {
         self.vacate(gone.persistent);
         self.set_aside(gone.contact);
     }
 
-    /// A contact of last update is over.
+    /// Notes that a contact of last update is over.
     fn set_aside(&mut self, gone: ContactNumber) {
         self.ended.extend(gone.begun());
     }
 
-    /// Whether a contact has begun, and is new: what had begun goes on, until it is over.
+    /// Decides whether a contact has begun, and is new. One that had begun stays so until it is over.
     #[inline(always)]
     fn begin(&mut self, record: &mut Record<S::Key>, before: ContactNumber) {
-        // One beyond the margin is over, whatever a motion may bring.
+        // Beyond the margins a contact is over, whatever a motion may bring.
         if record.speculative {
             self.set_aside(before);
         }
@@ -211,7 +211,7 @@ impl<S: Space> Asker<'_, S> {
                     Some(self.record_of(candidate, met, place, answered))
                 }
                 Way::Asked => {
-                    // What is asked has an answer, in order, and both its bodies: `ask` has seen to that.
+                    // Each job has an answer, in order, and both bodies exist: `answer` has seen to that.
                     let (a, b) = candidate.keys;
                     let both = self.bodies.get(a).zip(self.bodies.get(b));
                     let answer = answered.answers.get(next);
@@ -229,7 +229,7 @@ impl<S: Space> Asker<'_, S> {
                         Some(self.record_of(candidate, met, place, answered))
                     })
                 }
-                // A body of it is gone.
+                // One of its bodies is gone.
                 Way::Open => None,
             };
             candidate.contact = match record {
@@ -248,11 +248,11 @@ impl<S: Space> Asker<'_, S> {
         }
         settled.tally.asked = next;
         settled.tally.end();
-        // Those that are gone came first. Numbers ascend as pairs do.
+        // `choose` put those of lost candidates first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
     }
 
-    /// What an answer says of a pair for the next update.
+    /// Stores what an answer says of a pair for the next update.
     fn learn(&self, candidate: &mut Candidate<S::Key>, answer: &Answer) {
         (candidate.hint, candidate.until) = match *answer {
             Answer::Apart { hint, beyond } => {
@@ -264,7 +264,7 @@ impl<S: Space> Asker<'_, S> {
         };
     }
 
-    /// What is kept of an answer, to be moved along: of bodies that touch, and last.
+    /// The persistent manifold of an answer, if the bodies touch and it is likely to last.
     fn kept_of(
         &self,
         (pair, (a, b)): (PairId, Both<'_, S>),
@@ -277,8 +277,7 @@ impl<S: Space> Asker<'_, S> {
             return None;
         }
         if S::is_ground(&a.shape) || S::is_ground(&b.shape) {
-            // Which memory is lent changes no output. If chunks kept their own, it would gather in those without
-            // ground.
+            // Which memory is lent changes no output. If chunks kept it, it would pile up in those without ground.
             if S::has_no_memory(&settled.spare) {
                 S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
             }
@@ -288,14 +287,14 @@ impl<S: Space> Asker<'_, S> {
         S::persistent(&job, answer, &answered.manifolds, step, &mut settled.spare)
     }
 
-    /// Whether either body has a motion: what that may bring is looked for within other margins in every frame.
+    /// Whether either body has a motion: the margin then differs from frame to frame, so nothing is kept.
     #[inline]
     pub(super) fn is_going(&self, pair: PairId) -> bool {
         let motions = self.motions;
         !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some())
     }
 
-    /// A contact of last update as it was, with its manifolds.
+    /// A contact carried over from last update, with its manifolds.
     fn carried(
         &self,
         before: &Record<S::Key>,
@@ -308,7 +307,7 @@ impl<S: Space> Asker<'_, S> {
         Record { manifolds: Place { chunk, start, end: to.len() as u32 }, ..*before }
     }
 
-    /// A contact as the narrow phase alone knows it: whether it has begun, and is new, is [`Settled::begin`]'s to say.
+    /// A contact as the narrow phase alone knows it: [`Settled::begin`] decides whether it has begun, and is new.
     #[inline(always)]
     fn record_of(
         &self,
@@ -317,7 +316,7 @@ impl<S: Space> Asker<'_, S> {
         manifolds: Place,
         answered: &Batch<S::Manifold>,
     ) -> Record<S::Key> {
-        // Where nothing is on its way, no manifold need be read.
+        // Without a motion, no manifold need be read.
         let speculative = self.is_going(pair) && !met.overlapping && {
             let found = &answered.manifolds[manifolds.start as usize..manifolds.end as usize];
             let both = self.bodies.get(keys.0).zip(self.bodies.get(keys.1));

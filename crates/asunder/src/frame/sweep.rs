@@ -5,7 +5,7 @@ use crate::space::Space;
 use crate::world::World;
 use asunder_broad::Moved;
 
-/// Finds the pairs of bodies whose boxes overlap and that may meet at all.
+/// Finds the pairs whose boxes overlap and whose filters agree.
 pub(super) fn sweep<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
     let World { boxes, tags, odometers, moved, max_pairs, stats, scratch, .. } = world;
     let admit = |a: u32, b: u32| tags[a as usize].may_meet(&tags[b as usize]);

@@ -1,10 +1,9 @@
-//! What bullets stand on before they go: over what is flush with it they are led.
+//! What bullets touch before they move: they pass over whatever is flush with it.
 
 use crate::space::Space;
 use crate::world::{World, slot_of};
 
-/// What each bullet touches that is solid, and what the contacts with it tell: those that this update shows, as a hook
-/// left them.
+/// The solid things that each bullet touches, by the contacts that this update shows, as a hook left them.
 #[derive(Debug)]
 pub(crate) struct Touches<S: Space> {
     /// The slot of each touch's bullet, ascending.
@@ -15,14 +14,14 @@ pub(crate) struct Touches<S: Space> {
 impl<S: Space> Touches<S> {
     pub(crate) const NONE: Self = Self { slots: Vec::new(), touches: Vec::new() };
 
-    /// Those of a bullet.
+    /// The touches of the bullet in a slot.
     pub(super) fn of(&self, slot: u32) -> &[S::Touch] {
         let start = self.slots.partition_point(|&other| other < slot);
         let end = self.slots.partition_point(|&other| other <= slot);
         &self.touches[start..end]
     }
 
-    /// Those of all bullets that are asked about, which are sorted. Cost: linear in their contacts.
+    /// Gathers those of all bullets in `of_bullets`, which is sorted. Cost: linear in their contacts.
     pub(super) fn gather(world: &mut World<S>) {
         let Self { mut slots, mut touches } = core::mem::replace(&mut world.scratch.touches, Self::NONE);
         slots.clear();

@@ -1,4 +1,4 @@
-//! What a query is answered with.
+//! The answers to queries.
 
 use crate::space::{BodyKey2, BodyKey3};
 use crate::world::slot_of;
@@ -134,11 +134,11 @@ pub type NearAnswer2 = NearAnswer<BodyKey2, Vec2, DVec2>;
 /// A body of a [`World3`](crate::World3) near a point or a shape.
 pub type NearAnswer3 = NearAnswer<BodyKey3, Vec3, DVec3>;
 
-/// What answers are compared by, and how far they are.
+/// How answers are compared.
 pub(crate) trait Ranked {
     /// The distance, and the slot that decides between equals.
     fn rank(&self) -> (f64, u32);
-    /// Tells the distance anew. What depends on it stays: it is off by less than the error.
+    /// Replaces the distance. What was derived from it stays: the change is less than the error.
     fn put_at(&mut self, distance: f64);
 }
 
@@ -172,7 +172,7 @@ impl<K: Key, N, P> Ranked for NearAnswer<K, N, P> {
     }
 }
 
-/// What is only found: at no distance.
+/// A body that is found, without a distance.
 pub(crate) struct Met<K>(pub(crate) K);
 
 impl<K: Key> Ranked for Met<K> {

@@ -166,13 +166,13 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Finds what is touched, too: for who walks, and stands on something.
+    /// Finds what is touched at the start, too: for a character, which stands on something.
     pub(crate) const fn with_touched(mut self) -> Self {
         self.is_apart = false;
         self
     }
 
-    /// What can be told without a call.
+    /// Whether it admits a body, as far as can be said without calling the game's closure.
     #[inline]
     pub(super) fn admits(&self, key: S::Key, body: &Collider<S>) -> bool {
         let is_left_out = self.without == Some(key) || self.without_all.contains(&key);
@@ -181,7 +181,7 @@ impl<'a, S: Space> Filter<'a, S> {
             && self.layers.is_none_or(|layers| layers.meets(body.layers))
     }
 
-    /// Whether it may be met where it is touched at the start, or is not.
+    /// Whether it admits an answer, by whether it is touched at the start.
     #[inline]
     pub(super) fn admits_start(&self, is_touched: bool) -> bool {
         !(self.is_apart && is_touched)

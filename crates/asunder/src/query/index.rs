@@ -1,18 +1,18 @@
-//! The boxes that queries are asked of first, kept while few bodies move.
+//! The boxes that queries look up first, kept while few bodies move.
 //!
 //! ```text
 //! rest     a tree of all boxes, as they were when it was made
 //! moved    a tree of those that changed since
 //! recent   a list of those that changed since that one was made
 //! ```
-//! A body counts in the last of the three that it is in. Trees are made by the first query that needs them,
-//! behind `&World`, and not at all in a world that is never asked; a list that has grown too long is given up, with
-//! the tree before it.
+//! A body counts in the last of the three that contains it. Trees are built by the first query that needs them, behind
+//! `&World`, and not at all in a world that is never queried. When the list has grown too long, it is dropped together
+//! with the second tree; when too many boxes have changed, both trees are.
 //!
-//! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, a list of them would
-//!    have to be gone through by every query, and a tree of all would have to be made anew every frame.
-//! 2. A list instead of two trees: a game that moves one body, asks, and moves the next, would make the second tree
-//!    for every query.
+//! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, every query would have to
+//!    scan a list of them, or a tree of all would have to be rebuilt every frame.
+//! 2. A list besides the two trees: a game that moves one body, queries, and moves the next would otherwise rebuild the
+//!    second tree for every query.
 //!
 //! No answer depends on which of them a body is in: see [`walk`](super::walk).
 
@@ -32,19 +32,19 @@ enum Level {
     Recent,
 }
 
-/// What is known of all bodies' boxes; of no influence on any answer.
+/// The trees and the list of bodies' boxes; they influence no answer.
 pub(crate) struct Boxes<S: Space> {
     rest: Tree<S::Aabb>,
     moved: Tree<S::Aabb>,
-    /// Slots by what they are in; those not here are at rest.
+    /// Which of the three each slot is in; slots beyond the end are at rest.
     levels: Vec<Level>,
-    /// Slots that are not at rest, in the order in which they changed: what numbers in the second tree mean.
+    /// Slots that are not at rest, in the order in which they changed: the second tree's numbers index this list.
     changed: Vec<u32>,
     recent: Vec<u32>,
 }
 
 impl<S: Space> Boxes<S> {
-    /// Takes note that a body's box has changed, or will: it was moved, came or went. Cost: constant.
+    /// Notes that a body's box has changed, or will: the body was moved, inserted or removed. Cost: constant.
     #[inline]
     pub(crate) fn told(&mut self, slot: u32) {
         if self.rest.made.get().is_some() {
@@ -85,18 +85,19 @@ impl<S: Space> Boxes<S> {
     }
 }
 
-/// Boxes in the second tree, before both are made anew. The first costs as much a box as the second.
+/// Most boxes in the second tree before both are rebuilt. A box costs as much in the first as in the second.
 const fn most_changed(at_rest: usize) -> usize {
     64 + at_rest / 4
 }
 
-/// Boxes in the list, before the second tree is made anew. A query takes some 45 ns for each, and the tree as
-/// much for each in it: between one query a move and many, a root keeps both small.
+/// Most boxes in the list before the second tree is rebuilt. A query takes some 45 ns for each box in the list, and
+/// rebuilding the tree as much for each box in it. Whether there is one query per move or many, a square root keeps
+/// both costs small.
 const fn most_recent(changed: usize) -> usize {
     16 + (2 * changed).isqrt()
 }
 
-/// A tree that is made when it is needed, and the memory of the last one.
+/// A tree that is built when it is needed, and the memory of the last one.
 struct Tree<B: Bounds> {
     made: OnceLock<Made<B>>,
     last: Mutex<Option<Made<B>>>,
@@ -108,10 +109,10 @@ struct Made<B> {
 }
 
 impl<B: Bounds> Tree<B> {
-    /// The tree, made now if it is not there. Threads that come meanwhile wait for it.
+    /// The tree, built now if it is missing. Threads that ask meanwhile wait for it.
     fn get(&self, make: impl FnOnce(&mut Made<B>)) -> &Index<B> {
         let made = self.made.get_or_init(|| {
-            // A lock that a panic has poisoned holds memory for reuse, whatever is in it.
+            // Even in a poisoned lock it is only memory for reuse, whatever its contents.
             let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).take();
             let mut made = last.unwrap_or_else(|| Made { index: Index::new(), boxes: Vec::new() });
             make(&mut made);
@@ -135,7 +136,7 @@ pub(super) struct Sight<'w, S: Space> {
 }
 
 impl<S: Space> World<S> {
-    /// Makes the trees that are missing.
+    /// Builds the trees that are missing.
     pub(super) fn sight(&self) -> Sight<'_, S> {
         let boxes = &self.questions;
         let rest = boxes.rest.get(|Made { index, boxes }| {
@@ -154,8 +155,8 @@ impl<S: Space> World<S> {
         Sight { boxes, rest, moved }
     }
 
-    /// A box around the body in a slot: that of the last update, which may be larger than it need be, if nothing
-    /// was done to it since.
+    /// A box around the body in a slot: that of the last update, which may be larger than necessary, if the body has
+    /// not changed since.
     fn box_now(&self, slot: u32) -> S::Aabb {
         let index = slot as usize;
         if !self.is_dirty[index] {
@@ -167,7 +168,7 @@ impl<S: Space> World<S> {
 }
 
 impl<'w, S: Space> Sight<'w, S> {
-    /// Slots whose boxes are in no tree.
+    /// Slots whose current boxes are in no tree.
     pub(super) fn recent(&self) -> &'w [u32] {
         &self.boxes.recent
     }
@@ -190,7 +191,7 @@ pub(super) struct Branch<'w, S: Space> {
 }
 
 impl<S: Space> Branch<'_, S> {
-    /// The slot that a number in the tree means, if the body is not elsewhere by now.
+    /// The slot that a number in the tree stands for, if the body still counts in this tree.
     #[inline]
     pub(super) fn slot(&self, number: u32) -> Option<u32> {
         let Boxes { levels, changed, .. } = self.boxes;
@@ -213,12 +214,12 @@ impl<S: Space> Default for Boxes<S> {
 }
 
 impl<S: Space> Clone for Boxes<S> {
-    /// A world's clone makes its own when it is asked.
+    /// A world's clone builds its own trees when it is queried.
     fn clone(&self) -> Self {
         Self::default()
     }
 
-    /// Nor has it any use for what is known of other bodies, but for the memory.
+    /// Keeps only the memory: the trees are of other bodies.
     fn clone_from(&mut self, _: &Self) {
         self.forget();
     }

@@ -1,4 +1,4 @@
-//! Queries, each as the boxes that it is about and what it asks of a body.
+//! Queries, each as a set of boxes and what it asks of a body.
 
 use super::answer::Met;
 use super::filter::Filter;
@@ -12,28 +12,28 @@ use core::cell::Cell;
 use core::ops::ControlFlow;
 
 thread_local! {
-    /// Slots of bodies that are put in order before they are asked.
+    /// Slots of bodies that are sorted before the narrow phase.
     static SLOTS: Cell<Vec<u32>> = const { Cell::new(Vec::new()) };
 }
 
-/// Bodies at a distance of at most `limit`: a NaN counts as no limit, and a negative limit as zero.
+/// The limit of a distance: a NaN counts as none, and a negative one as zero.
 fn limit_of(limit: f64) -> f64 {
     if limit.is_nan() { f64::INFINITY } else { limit.max(0.0) }
 }
 
-/// Which boxes overlap one.
+/// Which bodies' boxes overlap a box.
 pub(crate) fn boxes_over<'q, S: Asked>(
     world: &'q World<S>,
     bounds: &S::Aabb,
     filter: &'q Filter<'q, S>,
 ) -> Question<'q, S, impl Asks<S, Met<S::Key>>> {
     let ask = |key, _: &_| Some(Met(key));
-    // The box of the body is all that counts.
+    // The body's exact box decides, not only one that holds it.
     let bounds_of = |shape: &S::Shape, pose: &S::Pose| S::bounds(shape, pose, 0.0);
     Question { world, filter, reach: Reach::Over(*bounds), bounds_of, limit: 0.0, ask }
 }
 
-/// Hands over each body whose box overlaps one, in no promised order, until the visitor breaks off.
+/// Visits each body whose box overlaps a box, in no promised order, until the visitor breaks off.
 pub(crate) fn visit_bodies_in<S: Asked>(
     (world, filter): (&World<S>, &Filter<'_, S>),
     bounds: &S::Aabb,
@@ -56,12 +56,13 @@ pub(crate) fn bodies_over<'q, S: Asked>(
     Question { world, filter, reach, bounds_of: S::bounds_at_once, limit: 0.0, ask }
 }
 
-/// What is within a margin of a shape; a NaN is none.
+/// The box around a shape and a margin; a NaN counts as none.
 fn bounds_around<S: Asked>(at: Posed<'_, S>, margin: f32) -> S::Aabb {
     S::bounds(at.0, at.1, margin.max(0.0))
 }
 
-/// Hands over how a shape meets each body within a margin, bodies in no promised order, until the visitor breaks off.
+/// Visits the manifolds of a shape with each body within a margin, bodies in no promised order, until the visitor
+/// breaks off.
 pub(crate) fn visit_manifolds<S: Asked>(
     (world, filter): (&World<S>, &Filter<'_, S>),
     at: Posed<'_, S>,
@@ -79,7 +80,7 @@ pub(crate) fn visit_manifolds<S: Asked>(
     })
 }
 
-/// Replaces `into` by how a shape meets each body within a margin, by their slots.
+/// Replaces `into` by the manifolds of a shape with each body within a margin, by the bodies' slots.
 pub(crate) fn manifolds<S: Asked>(
     (world, filter): (&World<S>, &Filter<'_, S>),
     at: Posed<'_, S>,
@@ -87,7 +88,7 @@ pub(crate) fn manifolds<S: Asked>(
     into: &mut Vec<(S::Key, S::Manifold)>,
 ) {
     into.clear();
-    // Bodies are put in order, not manifolds: those of one are in order already, and are larger.
+    // Bodies are sorted, not manifolds: those of one body are in order already, and are larger.
     with_kept(&SLOTS, |slots| {
         slots.clear();
         let _ = boxes_over(world, &bounds_around::<S>(at, margin), filter).visit(|Met(key)| {
@@ -145,7 +146,7 @@ pub(crate) fn bodies_along<'q, S: Asked>(
     })
 }
 
-/// Where a moved shape first meets a part that counts of each body.
+/// Where a moved shape first meets, of each body, a part that counts.
 pub(crate) fn parts_along<'q, S: Asked>(
     world: &'q World<S>,
     at: Posed<'q, S>,
@@ -158,14 +159,14 @@ pub(crate) fn parts_along<'q, S: Asked>(
     })
 }
 
-/// What a moved shape runs into first, but for what it touches at the start, and what is flush with that.
+/// What a moved shape runs into first, except what it touches at the start and what is flush with that.
 pub(crate) fn first_ahead<S: Asked>(
     world: &World<S>,
     at: Posed<'_, S>,
     displacement: S::Vector,
     filter: &Filter<'_, S>,
 ) -> Option<Meet<S>> {
-    // Who runs into nothing stands wherever it likes.
+    // If nothing is met, the touches do not matter.
     let first = bodies_ahead((world, filter), at, displacement, &[]).first()?;
     with_kept(S::kept_touches(), |touches| {
         touches.clear();
@@ -182,15 +183,15 @@ pub(crate) fn first_ahead<S: Asked>(
     })
 }
 
-/// Which bodies a moved shape runs into, but for what it touches at the start, and what is flush with that.
+/// Which bodies a moved shape runs into, except what it touches at the start and what is flush with that.
 fn bodies_ahead<'q, S: Asked>(
     (world, filter): (&'q World<S>, &'q Filter<'q, S>),
     at: Posed<'q, S>,
     displacement: S::Vector,
     touches: &'q [S::Touch],
 ) -> Question<'q, S, impl Asks<S, Meet<S>>> {
-    // From one end of all that there is to the other and further, which is further than one motion leads: then each
-    // goes half of the way to meet the other.
+    // A displacement from one end of the world to the other is longer than a motion may be: then each moves half of it
+    // towards the other.
     let share = (2.0 * tolerance::MAX_POSITION / S::longest(displacement)).min(1.0);
     let is_far = share * S::longest(displacement) > tolerance::MAX_POSITION;
     moved((world, filter), at, displacement, move |key, body| {
@@ -205,7 +206,7 @@ fn bodies_ahead<'q, S: Asked>(
     })
 }
 
-/// Whom a moved shape meets, and when.
+/// Which bodies a moved shape meets, by a narrow-phase call.
 fn moved<'q, S: Asked>(
     (world, filter): (&'q World<S>, &'q Filter<'q, S>),
     at: Posed<'q, S>,

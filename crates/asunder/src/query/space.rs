@@ -1,4 +1,4 @@
-//! What the narrow phase says of one body: for the plane, and for space.
+//! The narrow phase's part of a query, for one body: in the plane, and in space.
 
 use super::answer::{CastAnswer, NearAnswer, RayAnswer};
 use super::walk::{Look, Reach, visit_slots};
@@ -25,7 +25,7 @@ thread_local! {
 /// A shape, and where it is.
 pub(crate) type Posed<'a, S> = (&'a <S as Space>::Shape, &'a <S as Space>::Pose);
 
-/// A dimension that can be asked.
+/// A dimension that can be queried.
 pub(crate) trait Asked: Space {
     /// A vector of f32.
     type Vector: Copy;
@@ -34,39 +34,39 @@ pub(crate) trait Asked: Space {
     /// A ray.
     type Ray: Copy;
 
-    /// Hands the slots of all bodies whose boxes are within reach, up to a limit, to a visitor, until it breaks off,
-    /// each with whether its box is in a tree. Not generic where it is defined, for the reason of [`Space::advance`].
+    /// Visits the slots of all bodies whose boxes are within reach, up to a limit, each with whether its box is in a
+    /// tree, until the visitor breaks off. Its definitions are not generic, for the reason of [`Space::advance`].
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),
         look: &mut Look,
     ) -> ControlFlow<()>;
-    /// A point as a shape; nothing if no pose can be there.
+    /// A point as a shape; `None` if no pose can be there.
     fn point(at: Self::Point) -> Option<(Self::Shape, Self::Pose)>;
     /// Whether the body shares a point with the shape; exact.
     fn overlaps(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
-    /// The same, but of one-sided ground a front alone.
+    /// The same, but one-sided ground counts from its front alone.
     fn overlaps_front(at: Posed<'_, Self>, body: &Collider<Self>) -> bool;
-    /// Appends what the body is to a shape that overlaps it.
+    /// Appends the touches of a shape with the body, where they overlap.
     fn add_touches(at: Posed<'_, Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
-    /// Hands over the manifolds of the shape with a body that are within the margin, one by one.
+    /// Visits the manifolds of the shape with a body that are within the margin, one by one.
     fn visit_manifolds(
         at: Posed<'_, Self>,
         body: &Collider<Self>,
         margin: f32,
         visitor: impl FnMut(&Self::Manifold),
     );
-    /// A list that a thread keeps: who asks every frame allocates nothing.
+    /// A list that each thread keeps, so that a query in every frame allocates nothing.
     fn kept_touches() -> &'static LocalKey<Cell<Vec<Self::Touch>>>;
     /// How near the body is.
     fn near(at: Posed<'_, Self>, key: Self::Key, body: &Collider<Self>) -> Near<Self>;
-    /// A ray, for boxes.
+    /// A ray as a cast against boxes.
     fn along_ray(ray: &Self::Ray) -> Cast;
-    /// A moved box, for boxes.
+    /// A moved box as a cast against boxes.
     fn along(bounds: &Self::Aabb, displacement: Self::Vector) -> Cast;
     /// Where the ray enters the body.
     fn enter(ray: &Self::Ray, limit: f64, key: Self::Key, body: &Collider<Self>) -> Option<Enter<Self>>;
-    /// Where the shape, moved, meets the body.
+    /// Where the moved shape meets the body.
     fn meet(
         at: Posed<'_, Self>,
         displacement: Self::Vector,
@@ -79,11 +79,11 @@ pub(crate) trait Asked: Space {
         of: (Self::Key, &Collider<Self>),
         counts: impl Fn(&Meet<Self>) -> bool,
     ) -> Option<Meet<Self>>;
-    /// That share of a displacement, as a motion. Nothing where it is not finite, or longer than any.
+    /// That share of a displacement, as a motion; `None` if it is not finite, or longer than a motion may be.
     fn shift(displacement: Self::Vector, share: f64) -> Option<Self::Motion>;
     /// The greatest coordinate of a displacement, in metres.
     fn longest(displacement: Self::Vector) -> f64;
-    /// What is told of an impact at a share of the displacement.
+    /// The answer for an impact at a fraction of the displacement.
     fn met(at: f64, impact: &Self::Impact, key: Self::Key, body: &Collider<Self>) -> Meet<Self>;
 }
 

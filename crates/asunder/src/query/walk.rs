@@ -1,4 +1,4 @@
-//! From boxes to answers: the best, all, or whatever comes.
+//! From boxes to answers: the best, all, or a visitor for each.
 
 use super::answer::{Met, Ranked};
 use super::filter::Filter;
@@ -23,16 +23,16 @@ pub(crate) enum Reach<B> {
 }
 
 thread_local! {
-    /// Scratch memory of whoever asks on this thread. A query within a query finds none, and gets its own.
+    /// Working memory of this thread's queries. A query within a query finds it taken, and gets its own.
     static QUEUE: Cell<Queue> = Cell::new(Queue::new());
 }
 
-/// Lends what a thread keeps from one query to the next.
+/// Lends the memory that a thread keeps from one query to the next.
 pub(super) fn with_kept<T: Default, R>(
     place: &'static LocalKey<Cell<T>>,
     ask: impl FnOnce(&mut T) -> R,
 ) -> R {
-    // A thread that is about to end has no place for it any more.
+    // A thread that is about to end has dropped it.
     let mut kept = place.try_with(Cell::take).unwrap_or_default();
     let answer = ask(&mut kept);
     let _ = place.try_with(|place| place.set(kept));
@@ -40,7 +40,7 @@ pub(super) fn with_kept<T: Default, R>(
 }
 
 impl<B: Bounds> Reach<B> {
-    /// At what distance a box is met, at least, if it is within the limit.
+    /// A lower bound on the distance at which a box is met, if it is within the limit.
     fn meets(&self, bounds: &B, limit: f64) -> Option<f64> {
         match self {
             Self::Over(this) => this.overlaps(bounds).then_some(0.0),
@@ -49,7 +49,7 @@ impl<B: Bounds> Reach<B> {
         }
     }
 
-    /// Hands all boxes within the limit to the visitor, until it breaks off.
+    /// Visits all boxes within the limit, until the visitor breaks off.
     fn visit(
         &self,
         index: &Index<B>,
@@ -70,10 +70,10 @@ impl<B: Bounds> Reach<B> {
         }
     }
 
-    /// Hands boxes to the visitor, nearest first; what it returns is the limit from then on.
+    /// Visits boxes, nearest first; what the visitor returns is the limit from then on.
     fn in_order(&self, index: &Index<B>, limit: f64, mut visitor: impl FnMut(u32) -> f64) {
         match self {
-            // All are as near.
+            // All are equally near.
             Self::Over(this) => {
                 let _ = index.visit_overlapping(this, |number| {
                     if visitor(number) < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -89,11 +89,11 @@ impl<B: Bounds> Reach<B> {
     }
 }
 
-/// Looks at the body in a slot; whether its box is in a tree.
+/// A visitor of slots; the flag says whether the body's box is in a tree.
 pub(crate) type Look<'l> = dyn FnMut(u32, bool) -> ControlFlow<()> + 'l;
 
-/// Hands the slots of all bodies whose boxes are within reach to a visitor, until it breaks off, each with whether its
-/// box is in a tree. What [`Asked::visit_slots`] is made of.
+/// Visits the slots of all bodies whose boxes are within reach, each with whether its box is in a tree, until the
+/// visitor breaks off. Implements [`Asked::visit_slots`].
 pub(super) fn visit_slots<S: Space>(
     world: &World<S>,
     (reach, limit): (&Reach<S::Aabb>, f64),
@@ -112,26 +112,26 @@ pub(super) fn visit_slots<S: Space>(
     ControlFlow::Continue(())
 }
 
-/// What the narrow phase says of a body, if it is an answer.
+/// The narrow phase's answer for a body, if there is one.
 pub(crate) trait Asks<S: Space, A>: Fn(S::Key, &Collider<S>) -> Option<A> {}
 
 impl<S: Space, A, F: Fn(S::Key, &Collider<S>) -> Option<A>> Asks<S, A> for F {}
 
-/// A query to all bodies that a filter lets pass.
+/// A query about all bodies that a filter admits.
 pub(crate) struct Question<'q, S: Space, F> {
     pub(super) world: &'q World<S>,
     pub(super) filter: &'q Filter<'q, S>,
     pub(super) reach: Reach<S::Aabb>,
-    /// The box of a body that is looked at.
+    /// Makes the box of a body that decides.
     pub(super) bounds_of: fn(&S::Shape, &S::Pose) -> S::Aabb,
-    /// Nothing that is further is an answer.
+    /// Answers beyond it do not count.
     pub(super) limit: f64,
     pub(super) ask: F,
 }
 
 impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, F> {
-    /// The answer of a body, if it is within a limit that may be nearer by now. Where a box from a tree was met
-    /// already, a box of the body itself is looked at after the narrow phase, which refuses more of them.
+    /// The answer of a body, if it is within the limit, which may have shrunk by now. Where a tree's box was met
+    /// already, the body's own box is tested after the narrow phase, which rejects more bodies.
     fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;
@@ -150,7 +150,7 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
 
     /// The answer of the least rank.
     ///
-    /// Each body that is looked at may bring the limit nearer, so that trees are walked no further than need be.
+    /// Each body may lower the limit, so that trees are walked no further than necessary.
     pub(crate) fn first(&self) -> Option<A> {
         let (mut best, mut limit) = (None::<A>, self.limit);
         let mut look = |slot: u32, is_from_tree: bool| {
@@ -180,7 +180,7 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
         best
     }
 
-    /// Hands all answers to a visitor, in no promised order, until it breaks off.
+    /// Visits all answers, in no promised order, until the visitor breaks off.
     pub(crate) fn visit(&self, mut visitor: impl FnMut(A) -> ControlFlow<()>) -> ControlFlow<()> {
         S::visit_slots(self.world, (&self.reach, self.limit), &mut |slot, is_from_tree| match self.answer(
             slot,

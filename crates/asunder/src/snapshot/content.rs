@@ -14,10 +14,10 @@ use crate::world::{World, slot_of};
 use asunder_narrow::Hint;
 use serde::{Deserialize, Serialize};
 
-/// The number of this format: another one whenever a field comes, goes or changes its meaning.
+/// The number of this format; it changes whenever a field is added, removed or changes its meaning.
 pub(super) const FORMAT: u32 = 6;
 
-/// A world, but for what can be worked out.
+/// A world, without what can be derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "World", bound = "", deny_unknown_fields)]
 pub(super) struct Content<S: Saved> {
@@ -27,26 +27,27 @@ pub(super) struct Content<S: Saved> {
     pub(super) slots: Vec<SlotForm<S>>,
     /// Empty slots in the order in which they will be filled.
     pub(super) free: Vec<u32>,
-    /// Slots whose box is out of date; whose body moved since contacts were made; whose shape changed since then.
-    /// Ascending.
+    /// Slots whose box is out of date; slots whose body moved since contacts were made; slots whose shape changed since
+    /// then. Ascending.
     pub(super) dirty: Vec<u32>,
     pub(super) moved: Vec<u32>,
     pub(super) reshaped: Vec<u32>,
     /// Slots with a motion for the next update, or that lost one with their body. Ascending.
     pub(super) motions: Vec<(u32, Option<S::Motion>)>,
-    /// How far the body in a slot went, and in this frame: of those that did not change otherwise. Ascending.
+    /// Slot, how far its body has moved, and how far in this frame; only of bodies that did not change otherwise.
+    /// Ascending.
     pub(super) odometers: Vec<(u32, f64, f64)>,
     pub(super) max_pairs: u64,
     pub(super) candidates: Vec<CandidateForm<S>>,
     pub(super) contacts: Vec<ContactForm<S>>,
-    /// What a contact hook left of each contact's manifolds, if there was one.
+    /// Each contact's manifolds as a contact hook left them, if there was one.
     pub(super) edited: Option<Vec<Vec<S::Manifold>>>,
     pub(super) events: Vec<Event<S::Key>>,
     pub(super) impacts: Vec<Hit<S::Key, S::Impact>>,
     pub(super) counts: Counts,
 }
 
-/// A slot: the body in it and the version of its key; or, of an empty one, the version of the key to come.
+/// A slot: its body and the version of its key; or, if it is empty, the version of the next key.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "Slot", bound = "", deny_unknown_fields)]
 pub(super) struct SlotForm<S: Saved> {
@@ -59,9 +60,9 @@ pub(super) struct SlotForm<S: Saved> {
 pub(super) struct CandidateForm<S: Saved> {
     pub(super) keys: (S::Key, S::Key),
     pub(super) hint: Hint,
-    /// The manifold that is moved along.
+    /// The persistent manifold.
     pub(super) persistent: Option<S::Persistent>,
-    /// Of bodies that are apart, until when they stay so.
+    /// For bodies that are apart, the sum of their paths up to which they stay so.
     pub(super) until: Option<f64>,
 }
 
@@ -158,7 +159,7 @@ impl<S: Saved> Content<S> {
     }
 }
 
-/// No output depends on their order, so that equal worlds have equal snapshots.
+/// Sorted, since no output depends on their order and equal worlds are to have equal snapshots.
 fn ascending(slots: &[u32]) -> Vec<u32> {
     let mut slots = slots.to_vec();
     slots.sort_unstable();
@@ -171,7 +172,7 @@ fn counted((slot, odometer): (u32, &Odometer)) -> Option<(u32, f64, f64)> {
 }
 
 impl<S: Saved> SlotForm<S> {
-    /// The key of the body in this slot, or of the one to come.
+    /// The key of the body in this slot, or of the next one.
     pub(super) fn key(&self, slot: usize) -> S::Key {
         key_of(slot, self.version)
     }
@@ -179,8 +180,8 @@ impl<S: Saved> SlotForm<S> {
 
 impl<S: Saved> CandidateForm<S> {
     fn of(candidate: &Candidate<S::Key>, all: &Slab<S::Persistent>) -> Self {
-        // The pair is that of the keys' slots; which place a persistent manifold has does not matter.
-        // Which contact is its own is found again: contacts are saved in the same order.
+        // The pair is that of the keys' slots, and the place of a persistent manifold does not matter. The candidate's
+        // contact is found again, since contacts are saved in the same order.
         let Candidate { pair: _, keys, hint, persistent, contact: _, until } = candidate;
         let persistent = all.get(*persistent).cloned();
         Self { keys: *keys, hint: *hint, persistent, until: Some(*until).filter(|until| until.is_finite()) }

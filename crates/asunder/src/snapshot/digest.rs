@@ -1,5 +1,4 @@
-//! A number made of every bit of some data, by a serializer that adds up what it is told: nothing that is stored
-//! can be left out.
+//! A checksum of every bit of some data, computed by a serializer, so that nothing that is stored can be left out.
 //!
 //! Multiply and rotate, as in FxHash; order matters, and so do lengths and signs of zero. Names do not.
 
@@ -20,7 +19,7 @@ pub(super) fn digest(data: &impl Serialize) -> u64 {
 
 struct Digest(u64);
 
-/// Not zero, which zeros would leave as it is.
+/// Not zero, which zeros in the data would leave unchanged.
 const SEED: u64 = 0x2545_F491_4F6C_DD1D;
 
 impl Digest {
@@ -34,14 +33,14 @@ impl Digest {
         bytes.iter().try_for_each(|&byte| self.word(u64::from(byte)))
     }
 
-    /// The low bits of a product depend on low bits alone: fold the high ones in.
+    /// The low bits of a product depend on low bits alone, so the high ones are folded in.
     fn last(&self) -> u64 {
         let mixed = (self.0 ^ self.0 >> 32).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         mixed ^ mixed >> 29
     }
 }
 
-/// Our data always serialise.
+/// An error that cannot occur: our data always serialise.
 #[derive(Debug)]
 struct Never;
 

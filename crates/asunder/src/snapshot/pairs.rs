@@ -12,7 +12,7 @@ use crate::world::slot_of;
 use asunder_broad::PairId;
 use core::cmp::Ordering;
 
-/// Judges pairs by the slots and their versions.
+/// Checks pairs against the slots and their versions.
 pub(super) struct Judge<'a, S: Saved> {
     pub(super) slots: &'a [SlotForm<S>],
 }
@@ -25,7 +25,7 @@ type Candidates<S> =
 type Records<S> = (Vec<Record<<S as crate::space::Space>::Key>>, Vec<<S as crate::space::Space>::Manifold>);
 
 impl<S: Saved> Judge<'_, S> {
-    /// Whether a body has this key, or had it: a key of the future would be handed out once more.
+    /// Whether a body has or had this key; a future key would be handed out a second time.
     fn has_been(&self, key: S::Key) -> bool {
         let slot = self.slots.get((slot_of(key) as usize).wrapping_sub(1));
         slot.is_some_and(|slot| {
@@ -106,7 +106,7 @@ impl<S: Saved> Judge<'_, S> {
         Ok((candidates, all))
     }
 
-    /// Each contact is that of a candidate, which learns its number: two sorted lists, walked once.
+    /// Each contact must be that of a candidate, which gets its number: two sorted lists, walked once.
     pub(super) fn records(
         &self,
         forms: &[ContactForm<S>],
@@ -115,7 +115,7 @@ impl<S: Saved> Judge<'_, S> {
         let mut candidates = candidates.iter_mut();
         let (mut records, mut all) = (Vec::with_capacity(forms.len()), Vec::new());
         for (index, form) in forms.iter().enumerate() {
-            // Candidates have been judged. A contact out of order finds none left.
+            // Candidates have been checked. A contact out of order finds none left.
             let Some(candidate) = candidates.find(|candidate| candidate.keys == form.keys) else {
                 return Err(SnapshotError::Contact { index });
             };

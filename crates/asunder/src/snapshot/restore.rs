@@ -1,4 +1,4 @@
-//! From plain data to a world: nothing is believed that can be checked.
+//! From plain data to a world: whatever can be checked is checked.
 
 use super::content::{Content, FORMAT, SlotForm};
 use super::error::SnapshotError;
@@ -17,7 +17,7 @@ use asunder_geometry::Bounds;
 use asunder_narrow::Batch;
 use slotmap::Key;
 
-/// The world, if the data are those of one. Memory and time are linear in the data.
+/// The world, if the data are valid. Memory and time are linear in the data.
 pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, SnapshotError> {
     let Content {
         format,
@@ -89,7 +89,7 @@ pub(super) fn world_of<S: Saved>(content: &Content<S>) -> Result<World<S>, Snaps
     })
 }
 
-/// Of slots that are not named, bodies that changed. Slot 0 is never used.
+/// Odometers by slot; slots that are not named count as changed. Slot 0 is never used.
 fn revived_odometers(list: &[(u32, f64, f64)], slots: usize) -> Result<Vec<Odometer>, SnapshotError> {
     let named: Vec<u32> = list.iter().map(|&(slot, ..)| slot).collect();
     flags("odometers", &named, slots)?;
@@ -102,8 +102,8 @@ fn revived_odometers(list: &[(u32, f64, f64)], slots: usize) -> Result<Vec<Odome
     Ok(odometers)
 }
 
-/// Above this the version of a slot would soon begin again at 1, and keys of the past would look like keys to come. A
-/// slot gets there when it was filled two thousand million times.
+/// The greatest version of a slot: above it versions would soon wrap around to 1, and old keys would look like future
+/// ones. A slot gets there when it has been filled two thousand million times.
 const MOST_VERSION: u32 = u32::MAX - (1 << 16);
 
 /// Versions are odd, as in keys, and the list of empty slots names each of them once.
@@ -122,7 +122,7 @@ fn check_slots<S: Saved>(slots: &[SlotForm<S>], free: &[u32]) -> Result<(), Snap
     if is_open.contains(&true) { Err(SnapshotError::Free) } else { Ok(()) }
 }
 
-/// A list of slots, which must be ascending, as a flag a slot.
+/// A list of slots, which must be ascending, as one flag per slot.
 fn flags(list: &'static str, named: &[u32], slots: usize) -> Result<Vec<bool>, SnapshotError> {
     let mut flags = vec![false; with_slot_zero(slots)];
     let mut last = 0;
@@ -152,7 +152,7 @@ fn check_motions<S: Saved>(
     }
 }
 
-/// How long a list by slot is: a world that never had a body has none at all.
+/// The length of lists by slot: a world that never had a body has empty ones.
 fn with_slot_zero(slots: usize) -> usize {
     if slots == 0 { 0 } else { slots + 1 }
 }
@@ -171,7 +171,7 @@ fn revived<S: Saved>(
     (1..).zip(slots).map(body).collect()
 }
 
-/// What the world keeps of each slot besides the body, and can be worked out of it.
+/// What the world keeps for each slot besides the body, and can be derived from it.
 struct Derived<S: Saved> {
     keys: Vec<S::Key>,
     boxes: Vec<S::Aabb>,
@@ -191,7 +191,7 @@ impl<S: Saved> Derived<S> {
             derived.keys[slot] = form.key(slot);
             derived.tags[slot] = Tag::of(body);
             if !body.disabled {
-                // A motion is kept if a hook panicked, and then this box is not made again before the next update.
+                // A motion is left over if a hook panicked, and then the next update does not make this box again.
                 derived.boxes[slot] = match motions.of(slot as u32) {
                     Some(motion) => swept_bounds(body, &motion),
                     None => S::bounds(&body.shape, &body.pose, body.margin),

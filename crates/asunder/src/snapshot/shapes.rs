@@ -1,8 +1,8 @@
-//! The shapes of a world, those that several bodies share once.
+//! The shapes of a world; those that several bodies share are stored once.
 //!
-//! A hull, a polygon, a compound and ground keep their data behind a counted pointer, and clones share it. Bodies name
-//! such data by its place in a table; any other shape they keep themselves. A compound's parts may share data with
-//! other bodies too.
+//! Hulls, polygons, compounds and ground keep their data behind a counted pointer, and clones share it. Bodies refer to
+//! such data by its place in a table, and store any other shape themselves. A compound's parts may share data with
+//! other bodies, too.
 
 use super::Snapshot;
 use super::digest::digest;
@@ -39,7 +39,7 @@ pub trait Saved:
     + PartialEq
     + Debug
 {
-    /// A snapshot of a world; not generic where it is defined, for the reason of [`Space::advance`].
+    /// A snapshot of a world; its definitions are not generic, for the reason of [`Space::advance`].
     #[doc(hidden)]
     fn save(world: &World<Self>) -> Snapshot<Self>;
 
@@ -55,7 +55,7 @@ pub trait Saved:
     #[doc(hidden)]
     type Ground: Plain;
 
-    /// How serde names the shape that is nothing but a radius.
+    /// Serde's name of the shape that is only a radius.
     #[doc(hidden)]
     const BALL: &'static str;
 
@@ -91,7 +91,7 @@ pub trait Saved:
     #[doc(hidden)]
     fn is_lasting(persistent: &Self::Persistent) -> bool;
 
-    /// When it is, as a share of the motion.
+    /// The fraction of the motion at which it happens.
     #[doc(hidden)]
     fn fraction(impact: &Self::Impact) -> f64;
 }
@@ -122,9 +122,9 @@ struct PartForm<S: Saved> {
     shape: ShapeRef<S::Shape>,
 }
 
-/// A table in the making. Addresses only look up what has been seen: they differ from run to run. Equal data at two
-/// addresses have one place too, so that a snapshot does not depend on what happens to be shared: a game that was
-/// loaded makes its new bodies of shapes of its own.
+/// A table in the making. Addresses, which differ from run to run, only serve to look up what has been seen. Equal data
+/// at two addresses get one place, too, so that a snapshot does not depend on what happens to be shared: a loaded game
+/// makes its new bodies of shapes of its own.
 pub(super) struct Collected<S: Saved> {
     pub(super) table: Table<S>,
     polytopes: Seen,
@@ -140,7 +140,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// The place of an item in the list, at the end of which it is put if it is new.
+    /// The place of an item in the list; a new item is appended.
     fn place<T: PartialEq + Serialize>(&mut self, address: usize, list: &mut Vec<T>, item: T) -> u32 {
         let alike = self.by_digest.entry(digest(&item)).or_default();
         let known = alike.iter().copied().find(|&place| list.get(place as usize) == Some(&item));
@@ -160,7 +160,7 @@ impl<S: Saved> Collected<S> {
         Self { table, polytopes: Seen::default(), compounds: Seen::default(), ground: Seen::default() }
     }
 
-    /// How a body names its shape.
+    /// How a body refers to its shape.
     pub(super) fn name(&mut self, shape: &S::Shape) -> ShapeRef<S::Shape> {
         if let Some((polytope, address, radius)) = S::polytope(shape) {
             let known = self.polytopes.by_address.get(&address).copied();
@@ -183,7 +183,7 @@ impl<S: Saved> Collected<S> {
     }
 }
 
-/// A table brought back to life: compounds are made once, and handed out as clones.
+/// The restored table: compounds are made once, and handed out as clones.
 pub(super) struct Revived<'a, S: Saved> {
     polytopes: &'a [S::Polytope],
     compounds: Vec<S::Shape>,
@@ -203,7 +203,7 @@ impl<'a, S: Saved> Revived<'a, S> {
         Ok(revived)
     }
 
-    /// The shape that a body names, or what is wrong with the name.
+    /// The shape that a body refers to, or what is wrong with the reference.
     pub(super) fn shape(&self, name: &ShapeRef<S::Shape>) -> Result<S::Shape, String> {
         match name {
             ShapeRef::Own(shape) => Ok(shape.clone()),
@@ -229,7 +229,8 @@ pub enum SpaceGround {
     Field(HeightField),
 }
 
-/// The address of data that may be shared by ground of one side and of two: aligned, so that its last bit is free.
+/// The address of data that one-sided and two-sided ground may share, with the side in its last bit, which alignment
+/// leaves free.
 const fn with_side(address: usize, is_one_sided: bool) -> usize {
     address | is_one_sided as usize
 }

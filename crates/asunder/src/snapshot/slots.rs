@@ -1,9 +1,9 @@
-//! Slots, versions, and the order in which empty slots are filled again: what decides the keys of bodies to come.
+//! Slots, versions, and the order in which empty slots are filled again: they decide the keys of future bodies.
 //!
-//! A slot map shows the keys of its bodies and nothing of its empty slots. They show when it is filled: a copy of
-//! the map takes bodies until no slot is empty, and the keys it hands out are those of the future. Back again goes
-//! by way of slotmap's own serde, which alone can set versions: all slots are read as filled, and those that were
-//! empty are emptied in the reverse order, because the last to be emptied is the first to be filled.
+//! A slot map shows the keys of its bodies, but not its empty slots. To save these, a copy of the map is filled until
+//! no slot is empty, and the keys that it hands out are the future ones. To restore them takes slotmap's own serde,
+//! which alone can set versions: all slots are read as filled, and those that were empty are emptied in reverse order,
+//! since the last to be emptied is the first to be filled.
 
 use super::shapes::Saved;
 use crate::collider::Collider;
@@ -16,10 +16,10 @@ use slotmap::{Key, KeyData, SlotMap};
 
 type Bodies<S> = SlotMap<<S as crate::space::Space>::Key, Collider<S>>;
 
-/// The keys that the next bodies get in the empty ones of `slots` slots, in order.
+/// The keys that the next bodies get in the empty slots among `slots`, in order.
 pub(super) fn keys_to_come<S: Saved>(bodies: &Bodies<S>, slots: usize) -> Vec<S::Key> {
     let empty = slots.saturating_sub(1 + bodies.len());
-    // Always there: the numbers are those of a unit ball or disc.
+    // Never fails: the numbers are those of a unit ball or disc.
     let Ok(body) = Collider::<S>::deserialize(Node::body::<S>()) else { return Vec::new() };
     let mut bodies = bodies.clone();
     (0..empty).map(|_| bodies.insert(body.clone())).collect()
@@ -43,7 +43,7 @@ pub(super) fn slot_map<S: Saved>(
 ) -> Result<Bodies<S>, Error> {
     let before = |(version, body): &(u32, Option<Collider<S>>)| match body {
         Some(_) => *version,
-        // The key before the one to come.
+        // The version before the next key's.
         None => version.wrapping_sub(2),
     };
     let sentinel = Node::Map(vec![("value", Node::None), ("version", Node::Number(0))]);
@@ -66,7 +66,7 @@ pub(super) fn slot_map<S: Saved>(
     Ok(bodies)
 }
 
-/// As much of a self-describing format as a slot takes.
+/// As much of a self-describing format as a slot needs.
 #[derive(Clone)]
 enum Node {
     None,
@@ -75,7 +75,7 @@ enum Node {
 }
 
 impl Node {
-    /// Some body or other: a unit ball.
+    /// An arbitrary body: a unit ball.
     fn body<S: Saved>() -> Self {
         let unit = Self::Map(vec![("radius", Self::Number(1))]);
         Self::Map(vec![("shape", Self::Map(vec![(S::BALL, unit)]))])
