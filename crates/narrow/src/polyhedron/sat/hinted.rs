@@ -95,7 +95,7 @@ pub(crate) fn hint_to(of: AxisOf) -> Hint {
     })
 }
 
-/// The features of last frame's axis by a hint, which may come from other shapes.
+/// The features that a hint names as those of last frame's axis; the hint may come from other shapes.
 #[inline]
 fn axis_in(hint: Hint) -> Option<AxisOf> {
     let features = hint.features()?;
@@ -107,7 +107,7 @@ fn axis_in(hint: Hint) -> Option<AxisOf> {
     }
 }
 
-/// The features that last frame's contact points were made on by a hint, which may come from other shapes.
+/// The features that a hint says last frame's contact points were made on; the hint may come from other shapes.
 #[inline]
 pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
     match hint.points_on() {

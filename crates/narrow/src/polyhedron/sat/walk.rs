@@ -12,13 +12,13 @@
 //!           if some direction beats it, go on from the face there whose normal lies most nearly along that direction
 //! ```
 //! Each axis is evaluated with all vertices, and each step must show more than the one before, so that neither hints
-//! nor rounding can lead astray or in circles. Pairs a frame that need the test of all axes, and what is left of the
-//! frame's time (AMD EPYC, Zen 4, 2026-11-24):
+//! nor rounding can lead astray or in circles. Pairs a frame that still need the test of all axes, and the frame's
+//! share of its former time (AMD EPYC, Zen 4, 2026-11-24):
 //!
-//! - hulls that fall on each other: 4, where it was 670; 0.93;
-//! - hulls at rest: 5 for 370; 0.8;
-//! - 10,000 boxes and hulls in the air: 15 for 450; 0.9;
-//! - a crowd: 16 for 100; 0.98.
+//! - hulls that fall on each other: 4 pairs, where it was 670; 0.93 of the time;
+//! - hulls at rest: 5 pairs for 370; 0.8;
+//! - 10,000 boxes and hulls in the air: 15 pairs for 450; 0.9;
+//! - a crowd: 16 pairs for 100; 0.98.
 //! 100. The frames take 0.93, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
 //!
 //! Lin and Canny walk in this way over the features of two solids with a gap between them ("A fast algorithm for
