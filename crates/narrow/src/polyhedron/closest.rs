@@ -13,7 +13,7 @@ use asunder_geometry::glam::DVec3;
 /// Two bounds on the separation of two cores, before their rounding is subtracted, and what shows them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest {
-    /// The separation along `normal` by projection; -inf where no gap could be told from an overlap.
+    /// The separation along `normal` by projection; -inf where a gap could not be distinguished from an overlap.
     pub(crate) at_least: f64,
     /// The distance of the points.
     pub(crate) at_most: f64,

@@ -94,7 +94,7 @@ pub(crate) enum Wanted {
     Number,
     /// Closest points, where there is a gap.
     Closest,
-    /// Contact points: then [`Convex::touch`] may be asked.
+    /// Contact points: then [`Convex::touch`] may be called.
     Points,
 }
 
@@ -182,7 +182,7 @@ impl<'a> Convex<'a> {
         })
     }
 
-    /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
+    /// Whether the shapes share a point: the decision of [`Convex::probe`], in the cheapest way.
     ///
     /// For two cuboids that is their fifteen axes; for other solids a search for a separating direction or for corners
     /// around a common point, which needs no face and no edge.

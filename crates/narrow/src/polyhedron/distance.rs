@@ -89,7 +89,7 @@ impl Witness {
     }
 }
 
-/// What the iteration asks of a body: vertices, in the frame of the pair.
+/// What the iteration needs of a body: its vertices, in the frame of the pair.
 pub(crate) trait Polytope {
     /// The vertex furthest along a direction of unit length.
     fn furthest(&self, direction: DVec3) -> usize;

@@ -201,7 +201,7 @@ mod tests {
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Capsule3, Pose3, Segment3};
 
-    /// Upright and all but upright, where several corners are as low as the lowest, and in any pose; plates and rods,
+    /// Upright and nearly upright, where several corners are as low as the lowest, and in any pose; plates and rods,
     /// too.
     #[test]
     fn a_shape_touches_as_its_solid_does() {

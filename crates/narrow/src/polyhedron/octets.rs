@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn the_furthest_is_that_of_the_lowest_lane() {
         let mut state = 7_u32;
-        // Coarse, so that many are equally far.
+        // Coarse, so that many vertices are equally far.
         let mut number = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 29) as f32 - 3.5

@@ -24,11 +24,11 @@ const MAX_VERTICES: usize = 32;
 /// What the search has proved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Found {
-    /// A unit direction from A to B along which they are further apart than asked, and the separation along it.
+    /// A unit direction from A to B along which they are further apart than the limit, and the separation along it.
     Beyond(DVec3, f64),
     /// A common point.
     Overlap,
-    /// Nothing; the last direction that was tried.
+    /// Nothing; this is the last direction that was tried.
     Nothing(DVec3),
 }
 
@@ -38,7 +38,7 @@ pub(crate) fn search(a: &Solid, b: &Solid, beyond: f64, precision: &Precision) -
     let inside = a.center() - b.center();
     let apart = inside.length();
     if a.inner_radius <= 0.0 || b.inner_radius <= 0.0 {
-        // Flat solids have no inside to look from.
+        // Flat solids have no inside to start a ray from.
         return Found::Nothing(-inside.try_normalize().unwrap_or(DVec3::X));
     }
     if do_spheres_meet(a, b, apart, precision) {

@@ -27,7 +27,7 @@ pub(super) struct Rod {
 }
 
 impl Rod {
-    /// A segment; nothing of a point.
+    /// A segment; `None` for a point.
     pub(super) fn of_slender(core: &Slender) -> Option<Self> {
         let &Slender { ends, is_point, radius } = core;
         let vertices = [Feature::Vertex(0), Feature::Vertex(1)];

@@ -200,11 +200,12 @@ mod tests {
         corners
     }
 
-    /// Of any face, by another method: the least squares of its weights, and nothing where one is not positive.
+    /// The distance of one face's interior by another method: least squares of its weights; `None` where a weight is
+    /// negative.
     fn nearest_of_face(places: &[DVec3]) -> Option<f64> {
         let first = places[0];
         let edges: Vec<DVec3> = places[1..].iter().map(|&place| place - first).collect();
-        // Gram-Schmidt, and back.
+        // Gram-Schmidt, then back substitution.
         let mut rest = -first;
         let (mut axes, mut shares) = (Vec::<DVec3>::new(), Vec::new());
         for &edge in &edges {
@@ -224,7 +225,7 @@ mod tests {
         is_inside.then(|| rest.length())
     }
 
-    /// Of all faces.
+    /// The least over all faces.
     fn distance(places: &[DVec3]) -> f64 {
         let faces = (1_usize..1 << places.len()).map(|face| {
             (0..places.len()).filter(|i| face >> i & 1 == 1).map(|i| places[i]).collect::<Vec<_>>()
@@ -262,7 +263,7 @@ mod tests {
         let (mut kinds, mut inside, mut beside) = ([0; 5], 0, 0);
         for round in 0..40_000 {
             let count = 1 + round % 4;
-            // Flat ones among them, and some around the origin.
+            // Some of them flat, some around the origin.
             let flat = DVec3::new(1.0, 1.0, [1.0, 1e-2][round / 4 % 2]);
             let away = DVec3::new(0.3, 0.2, 0.4) * (round / 8 % 3) as f64;
             let places: Vec<DVec3> = (0..count).map(|_| numbers.vector() * flat + away).collect();
@@ -276,7 +277,7 @@ mod tests {
             let weighed = (0..nearest.count).map(|i| places[nearest.picks[i]] * nearest.weights[i]);
             let sum: f64 = nearest.weights[..nearest.count].iter().sum();
             assert!((weighed.sum::<DVec3>() - nearest.point).length() < 1e-12 && (sum - 1.0).abs() < 1e-12);
-            // Where the last corner brought nothing, nobody asks.
+            // Where the last corner brought nothing, the answer is not used.
             if count > 1 && truth >= without * (1.0 - 1e-9) {
                 beside += 1;
                 continue;

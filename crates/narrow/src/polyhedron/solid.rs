@@ -19,7 +19,7 @@ pub(crate) struct Solid<'a> {
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
     pub(super) basis: Basis3,
-    /// Whether the frame of the pair is this solid's own, so that nothing needs turning.
+    /// Whether the frame of the pair is this solid's own, so that nothing needs to be rotated.
     is_home: bool,
     is_cuboid: bool,
     position: DVec3,

@@ -94,7 +94,7 @@ mod tests {
                     parted += 1;
                     assert!(at_least > limit * (1.0 - 1e-6), "case {case}: {at_least} of {limit}");
                     assert!(at_least <= f64::from(truth.separation) + f64::from(truth.error), "case {case}");
-                    // The kernels' own word is no further off than lanes of f32 are.
+                    // The kernels' bound differs from it by no more than the error of f32 lanes.
                     let theirs =
                         told(pair.with_solids(|a, b| pair.probe_solids(a, b, asked))).expect("beyond, too");
                     assert!(

@@ -247,7 +247,7 @@ mod tests {
         let mut state = 1_u64;
         let mut number = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // Coarse, so that equal, opposite and square directions come up.
+            // Coarse, so that equal, opposite and perpendicular directions occur.
             ((state >> 60) as f32 - 7.5).round() / 4.0
         };
         let mut unit = || Vec3::new(number(), number(), number()).normalize_or_zero();
@@ -307,7 +307,7 @@ mod tests {
         parts(along_a, normals(b, edge_b)) && parts(along_b, normals(a, edge_a)) && sides[0] * sides[1] > 0.0
     }
 
-    /// Of so many sides, by powers of a rotation that has no order.
+    /// A prism of this many sides, by powers of a rotation of infinite order.
     fn prism(sides: usize) -> Shape3 {
         let corners = std::iter::successors(Some(DVec2::X), |at| Some(at.rotate(DVec2::new(0.6, 0.8))));
         let corners = corners.take(sides).map(|at| at.as_vec2());
@@ -325,7 +325,7 @@ mod tests {
                 let turn = random.turn(kind);
                 Pose3::new(random.vector() * 100.0, turn).unwrap()
             });
-            // Many edges, sorted and not, very long and very short arcs, and bundles of parallels.
+            // Many edges, sorted and not; very long and very short arcs; bundles of parallel edges.
             let shape_b = match case % 21 {
                 0 => random.round_hull(20 + case as usize % 60),
                 7 => prism(40),
@@ -334,7 +334,7 @@ mod tests {
             let shape_a = if case % 21 == 7 { prism(30) } else { shape_a };
             let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
             pair.with_solids(|a, b| {
-                // Any part of the edges, so that places and numbers differ.
+                // Arbitrary subsets of the edges, so that places in the list differ from edge numbers.
                 let some = |solid: &Solid, from: usize| -> Vec<u16> {
                     (0..solid.arcs().len() as u16).skip(from).step_by(1 + case as usize % 3).collect()
                 };

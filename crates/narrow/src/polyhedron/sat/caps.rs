@@ -105,7 +105,7 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// Arcs about a direction, at most so long, some all but a half circle; and one point of each, anywhere on it.
+    /// An arc near a direction, of a length set by `reach`, some nearly a half circle; and a random point on it.
     fn arc(random: &mut Random, about: Vec3, reach: f32) -> (EdgeArc, Vec3) {
         let mut near = || (about + reach * random.vector()).normalize_or(Vec3::X);
         let (left, right) = (near(), near());
@@ -124,7 +124,7 @@ mod tests {
             let about = random.vector();
             let share = random.number().abs();
             let (one, at) = arc(&mut random, about.normalize_or(Vec3::X), reach * share);
-            // The first of eight others ends where the negative of the first passes, on its line or anywhere.
+            // The arcs of the first four caps end where the negative of the first arc passes; the others lie anywhere.
             let caps: [Cap; 8] = core::array::from_fn(|i| {
                 let about = if i < 4 { -at } else { random.vector() };
                 let arcs: [EdgeArc; 3] = core::array::from_fn(|_| arc(&mut random, about, reach).0);

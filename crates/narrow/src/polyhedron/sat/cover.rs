@@ -51,7 +51,7 @@ pub(super) enum Cover {
     Whole,
     /// This unit direction beats it, or is too close to call.
     Torn(DVec3),
-    /// Nothing.
+    /// Nothing was proved.
     Unknown,
 }
 

@@ -209,14 +209,14 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// Also of needles, whose normals are rounding; and those with the origin behind them are refused.
+    /// Includes needles, whose normals are rounding; triangles with the origin behind them are refused.
     #[test]
     fn no_point_of_a_facet_is_nearer_than_its_bound() {
         let mut random = Random(0x9E6C_63D0_676A_9A99);
         let (mut taken, mut refused, mut needles) = (0, 0, 0);
         for case in 0..20_000 {
             let [p, q, aside] = [0; 3].map(|_| random.vector().as_dvec3());
-            // About on the line of the two others.
+            // Nearly on the line through the other two.
             let thin = [1.0, 1e-6, 1e-13, 1e-16][case % 4];
             let r = p.lerp(q, 2.0 * f64::from(random.number())) + aside * thin;
             let mut surface = Surface::new(1e-15);
