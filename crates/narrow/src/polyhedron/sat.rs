@@ -271,7 +271,7 @@ impl Found {
         if are_rimmed(a, b) && self.by_growing((a, b), search).is_some() {
             return;
         }
-        // Not an array of two: it would be blanked.
+        // Not an array of two: that would be cleared first.
         let mut edges_a = ArrayVec::<u16, MAX_EDGES>::new();
         let mut edges_b = ArrayVec::<u16, MAX_EDGES>::new();
         let least = self.floor - search.keep();

@@ -65,8 +65,8 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// For a face, `deepest` is the other solid's deepest vertex and `level` what is as deep. `None` for a face of too
-    /// many corners.
+    /// For a face, `deepest` is the other solid's deepest vertex and `level` what is equally deep. `None` for a face of
+    /// too many corners.
     pub(super) fn new(
         (a, b): (&Solid, &Solid),
         of: AxisOf,
@@ -126,7 +126,7 @@ pub(super) fn cover(
     let (x, y) = normal.any_orthonormal_pair();
     let plane = Plane { normal, axes: [x, y], depth: depth + doubt };
     let Some(corners) = plane.outline((a, b), facet, (depth, doubt)) else { return Cover::Unknown };
-    // Where a centre is not inside its solid, the radius is negative, by at least the distance.
+    // Where a centre is not inside its solid, the radius is negative, by at least its distance from it.
     let ball = plane.disc(a.center() - b.center(), a.inner_radius + b.inner_radius);
     let Some(disc) = ball else { return Cover::Unknown };
     let mut left = ArrayVec::<Piece, MOST_PIECES>::new();

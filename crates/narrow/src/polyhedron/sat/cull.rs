@@ -48,7 +48,7 @@ pub(super) struct Sight<'a, 'b> {
     /// How far the sphere's centre lies over each face. Borrowed: moved with the rest, its full capacity would be
     /// copied.
     over: &'a mut Heights,
-    /// The one that was added, or ruled something out, last comes first.
+    /// The one that was last added or last ruled something out comes first.
     points: ArrayVec<Ball, POINTS>,
     /// The slot that was overwritten last.
     turn: usize,
@@ -178,7 +178,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             let octet = &self.solid.edge_octets()[place as usize];
             open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
-                // Given up on shapes so symmetric that all edges are as good, where almost none is ruled out.
+                // Given up where too few are ruled out: on shapes so symmetric that all edges are as good, none is.
                 if asked < FEW || 8 * in_vain < 7 * asked {
                     let middle = self.solid.arcs()[octet.numbers[i] as usize].middle;
                     let middle = self.solid.turned(middle.as_dvec3().normalize_or_zero());

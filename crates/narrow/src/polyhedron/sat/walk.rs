@@ -19,7 +19,6 @@
 //! - hulls at rest: 5 pairs for 370; 0.8;
 //! - 10,000 boxes and hulls in the air: 15 pairs for 450; 0.9;
 //! - a crowd: 16 pairs for 100; 0.98.
-//! 100. The frames take 0.93, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
 //!
 //! Lin and Canny walk in this way over the features of two solids with a gap between them ("A fast algorithm for
 //! incremental distance calculation", ICRA 1991); here the walk goes over those of their difference, in overlap.
