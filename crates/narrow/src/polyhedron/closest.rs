@@ -1,7 +1,7 @@
-//! Closest points of two placed cores, each bound by itself: what a cast asks again and again on its way.
+//! Closest points of two placed cores, each bound by itself: what a cast evaluates again and again on its way.
 //!
-//! No decision and no f32: a cast needs an axis that was projected on and what it shows, in f64, and may ask again from
-//! somewhere else. The axis of the last answer is where the next search begins.
+//! No decision and no f32: a cast needs, in f64, an axis and the separation that it shows by projection, and may ask
+//! again from somewhere else. The next search starts from the axis of the last answer.
 
 use super::distance::{Reached, Until, distance};
 use super::half_space::Plane;
@@ -10,10 +10,10 @@ use super::solid::Solid;
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
 
-/// Two bounds on the separation of two cores, their rounding not yet taken off, and what shows them.
+/// Two bounds on the separation of two cores, before their rounding is subtracted, and what shows them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest {
-    /// The separation along `normal` by projection; -inf where no gap could be told from an overlap.
+    /// The separation along `normal` by projection; -inf where a gap could not be distinguished from an overlap.
     pub(crate) at_least: f64,
     /// The distance of the points.
     pub(crate) at_most: f64,
@@ -30,7 +30,7 @@ pub(crate) enum Placed<'a> {
     HalfSpace(Plane),
 }
 
-/// The closest points of A and B, sought from `towards` on.
+/// The closest points of A and B; the search starts in the direction `towards`.
 pub(crate) fn closest(a: &Placed, b: &Placed, towards: DVec3, precision: &Precision) -> Closest {
     match (a, b) {
         (Placed::Core(a), Placed::Core(b)) => of_cores(a, b, towards, precision),
@@ -41,7 +41,7 @@ pub(crate) fn closest(a: &Placed, b: &Placed, towards: DVec3, precision: &Precis
             Closest { at_least: height, at_most: height.max(0.0), normal: plane.axis(), points }
         }
         (Placed::HalfSpace(a), Placed::HalfSpace(b)) => {
-            // Those that do not look away from each other overlap, and were told apart before anything moved.
+            // Half-spaces whose normals are not exactly opposite overlap, and were sorted out before anything moved.
             let height = a.separation_from(b, || true);
             let at_most = if height == f64::NEG_INFINITY { 0.0 } else { height.max(0.0) };
             Closest { at_least: height, at_most, normal: a.axis(), points: a.points_with(b) }

@@ -2,26 +2,26 @@
 //!
 //! ```text
 //! separation of two rounded shapes = separation of their cores - both radii, along the same axis
-//! half-space and anything:          its plane's normal is the only axis        (half_space)
-//! a ball and a cuboid:               the centre held to the cuboid               (cuboids::ball)
-//! points and segments:              closest points in closed form              (slender)
-//! two cuboids:                      fifteen axes                               (cuboids)
-//! everything else:                  last frame's direction, if it parts them   (parted)
-//!                                   last frame's axis, proved to be the best   (sat)
-//!                                   a search for a direction, or a common point (portal)
-//!                                   in a gap, the closest points               (distance)
-//!                                   in overlap, faces and edge pairs           (sat)
+//! half-space and anything:          its plane's normal is the only axis                         (half_space)
+//! a ball and a cuboid:              the centre clamped to the cuboid                            (cuboids::ball)
+//! points and segments:              closest points in closed form                               (slender)
+//! two cuboids:                      fifteen axes                                                (cuboids)
+//! everything else:                  last frame's direction, if it still separates them          (parted)
+//!                                   last frame's axis, if it is proved to be the best           (sat)
+//!                                   a search for a separating direction or a common point       (portal)
+//!                                   in a gap, the closest points                                (distance)
+//!                                   in overlap, faces and edge pairs                            (sat)
 //! ```
-//! Where nothing but closest points is wanted, neither axes nor features are asked for                  (apart).
+//! Where only closest points are wanted, neither axes nor features are computed (`apart`).
 //!
-//! Whether they overlap is settled in three tiers, each asked only where the one before cannot tell:
+//! Whether the shapes overlap is decided in three tiers, each used only where the one before cannot decide:
 //!
 //! ```text
-//! Bound    what is asked first: all axes of boxes and small polygons, a distance in closed form, or as below
-//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
-//! Exact    integers, from the corners where f64 stopped                                               (exact)
+//! Bound    what is evaluated first: all axes of boxes and small polygons, a distance in closed form, or as below
+//! Double   a separating axis, or corners around a common point, each by more than rounding              (distance)
+//! Exact    integers, starting from the corners where f64 stopped                                        (exact)
 //! ```
-//! The number then takes the decision's sign: where it says otherwise, it is rounding.
+//! The separation is then given the decision's sign: where the number says otherwise, that is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! plane out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
@@ -64,7 +64,7 @@ pub(crate) struct Convex<'a> {
 
 pub(crate) type Probe = crate::answer::Probe<Near>;
 
-/// The separation of two shapes, and where it was seen.
+/// The separation of two shapes, and what shows it.
 pub(crate) struct Near {
     pub(crate) verdict: Verdict,
     pub(crate) separation: f32,
@@ -80,9 +80,9 @@ pub(crate) struct Near {
 /// What is asked of a pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
-    /// Further apart than this, in metres, is all that needs to be known.
+    /// Beyond this separation, in metres, nothing else needs to be known.
     pub(crate) limit: f64,
-    /// Of the last frame.
+    /// Last frame's hint.
     pub(crate) hint: Hint,
     pub(crate) wanted: Wanted,
 }
@@ -94,7 +94,7 @@ pub(crate) enum Wanted {
     Number,
     /// Closest points, where there is a gap.
     Closest,
-    /// Contact points: then [`Convex::touch`] may be asked.
+    /// Contact points: then [`Convex::touch`] may be called.
     Points,
 }
 
@@ -111,8 +111,8 @@ enum Evidence {
 pub(crate) const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 
 impl<'a> Convex<'a> {
-    /// Two shapes, B's axes and position as A sees them. `summed` is how long the vectors were that the position is a
-    /// sum of, in metres, where it is one of several.
+    /// Two shapes, with B's axes and position as seen from A. Where the position is a sum of several vectors, `summed`
+    /// is how long those were together, in metres.
     #[inline(always)]
     pub(crate) fn new(sites: [Site3<'a>; 2], relative: Basis3, offset: DVec3, summed: f64) -> Self {
         let (shape_a, shape_b) = (sites[0].shape, sites[1].shape);
@@ -150,8 +150,8 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// [`Convex::probe`], and where the answer is accepted [`Convex::touch`]; whether points were made. Both at
-    /// once, since it costs something to look at a cuboid as a solid.
+    /// [`Convex::probe`] and, where its answer is accepted, [`Convex::touch`]; also whether points were made. Both at
+    /// once, since it costs something to build a [`Solid`] from a cuboid.
     pub(crate) fn contact(
         &self,
         asked: Asked,
@@ -182,10 +182,10 @@ impl<'a> Convex<'a> {
         })
     }
 
-    /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
+    /// Whether the shapes share a point: the decision of [`Convex::probe`], in the cheapest way.
     ///
-    /// For two cuboids that is their fifteen axes; for other solids a search for a direction that parts them, or for
-    /// corners around a common point, which asks for no face and no edge.
+    /// For two cuboids that is their fifteen axes; for other solids a search for a separating direction or for corners
+    /// around a common point, which needs no face and no edge.
     pub(crate) fn verdict(&self) -> Verdict {
         if self.radii == 0.0
             && let Some(cuboids) = self.cuboids()
@@ -209,7 +209,7 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// What the first tier's numbers say of the overlap, within their error of zero too.
+    /// Whether the first tier's numbers show an overlap, even where they are within their error of zero.
     pub(crate) fn guess(&self) -> bool {
         if self.radii == 0.0
             && let Some(cuboids) = self.cuboids()
@@ -229,9 +229,9 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Contact points of shapes within the limit, on their surfaces, made where last frame's hint says they were unless
-    /// that is worse by two preferences; filled in, since they are large. False for two half-spaces that overlap
-    /// without end, which have none.
+    /// Contact points of shapes within the limit, on their surfaces. They are made on the features that last frame's
+    /// hint names, unless those are worse by two preferences. Filled in, since they are large. False for two
+    /// half-spaces that overlap without bound, which have none.
     fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
         let (margin, preference) = (asked.limit, self.preference());
         let (a, b) = match &near.evidence {
@@ -279,7 +279,7 @@ impl<'a> Convex<'a> {
         (probe, touch)
     }
 
-    /// The same for what is seen as solids.
+    /// [`Convex::touch`] for shapes that are treated as solids.
     fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, asked: Asked, touch: &mut Touch) {
         let (margin, preference) = (asked.limit, self.preference());
         if let Evidence::Axes(axes, witness) = &near.evidence {
@@ -301,7 +301,7 @@ impl<'a> Convex<'a> {
         Some(Cuboids { half_a, half_b, basis: self.relative, offset: self.offset })
     }
 
-    /// The planes of half-spaces.
+    /// The planes of those shapes that are half-spaces.
     fn planes(&self) -> [Option<Plane>; 2] {
         let plane = |shape: &Shape3, is_b: bool| {
             let Shape3::HalfSpace(half_space) = shape else { return None };
@@ -311,7 +311,7 @@ impl<'a> Convex<'a> {
         [plane(self.shape_a, false), plane(self.shape_b, true)]
     }
 
-    /// Both as what they are without their radius, where they are points and segments.
+    /// Both shapes without their radii, where those are points or segments.
     fn slenders(&self) -> Option<[Slender; 2]> {
         let a = Slender::of(self.shape_a, (&IDENTITY, DVec3::ZERO))?;
         Some([a, Slender::of(self.shape_b, (&self.relative, self.offset))?])
@@ -326,7 +326,7 @@ impl<'a> Convex<'a> {
     }
 
     pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
-        // One by one: a pair of them would be moved, and those that are made here are large.
+        // One by one: a pair of them would be moved, and cores that are built here are large.
         let core_a = self.shape_a.core();
         let core_b = self.shape_b.core();
         let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
@@ -334,23 +334,23 @@ impl<'a> Convex<'a> {
         ask(&a, &b)
     }
 
-    /// How much another axis must beat a face of A by, in metres. Relative to the smaller shape: what is nothing to a
-    /// floor may be all of a pebble. Never below rounding.
+    /// By how much another axis must beat a face of A, in metres. Relative to the smaller shape: what is nothing to a
+    /// floor may be the size of a pebble. Never below rounding.
     fn preference(&self) -> f64 {
         self.of_smaller(FACE_PREFERENCE)
     }
 
-    /// How much deeper a corner must be to be told for its depth alone, in metres.
+    /// How much deeper a corner must be to be kept for its depth alone, in metres.
     fn even_depth(&self) -> f64 {
         self.of_smaller(EVEN_DEPTH)
     }
 
-    /// How near a contact point must be to a vertex or an edge to be named after it, in metres.
+    /// How near a contact point must be to a vertex or an edge to get its feature id, in metres.
     fn same_place(&self) -> f64 {
         self.of_smaller(SAME_PLACE)
     }
 
-    /// So much of the smaller shape's diameter.
+    /// This share of the smaller shape's diameter.
     fn of_smaller(&self, share: f64) -> f64 {
         let smaller = f64::from(self.shape_a.outer_radius().min(self.shape_b.outer_radius()));
         self.precision.share(share, smaller)

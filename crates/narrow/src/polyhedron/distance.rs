@@ -3,11 +3,11 @@
 //! ```text
 //! v = a point of A - B
 //! repeat
-//!   w = the vertex of A - B furthest towards the origin from v
+//!   w = the support point of A - B along -v
 //!   |v| bounds the distance from above (it has witness points), v.w/|v| from below (it is a projection)
 //!   stop where they meet
-//!   v = the nearest point to the origin of the simplex of v's corners and w; keep the corners it needs
-//!   where w brings nothing new, look square to the simplex instead of from v; stop where that brings nothing either
+//!   v = the nearest point to the origin of the simplex of v's corners and w; keep the corners that carry it
+//!   where w brings nothing new, search perpendicular to the simplex instead of along -v; stop where that fails too
 //! ```
 //! Gilbert, Johnson and Keerthi, "A fast procedure for computing the distance between complex objects in
 //! three-dimensional space" (1988). Whatever rounding does to the iteration, both bounds hold for what is returned:
@@ -22,7 +22,7 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 /// Steps after which the iteration gives up narrowing. Sets of random hulls need 4 to 12.
 const MAX_STEPS: usize = 64;
 
-/// Share of the size above which the axis from one witness point to the other is not rounding.
+/// Share of the pair's size above which the axis from one witness point to the other is not rounding.
 pub(crate) const TELLING: f64 = 1e-6;
 
 /// How far the iteration came.
@@ -30,7 +30,7 @@ pub(crate) const TELLING: f64 = 1e-6;
 pub(crate) enum Reached {
     /// Two bounds on a distance, however far apart.
     Between(Witness),
-    /// The difference of the shapes is too close to the origin to tell, or holds it.
+    /// The difference of the shapes is too close to the origin to decide, or holds it.
     Origin(Close),
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct Until<'a> {
 }
 
 impl<'a> Until<'a> {
-    /// Only when they meet.
+    /// Stop only when the bounds meet.
     pub(crate) fn met(precision: &'a Precision) -> Self {
         Self { beyond: f64::INFINITY, within: f64::NEG_INFINITY, precision }
     }
@@ -59,7 +59,7 @@ pub(crate) struct Close {
     pub(crate) corners: ArrayVec<[usize; 2], 4>,
     /// Whether they hold the origin for certain: the shapes share a point.
     pub(crate) is_proved: bool,
-    /// No further apart than this, in metres: as far as the last points were.
+    /// An upper bound on the distance, in metres: how far apart the last points were.
     pub(crate) within: f64,
     /// Those points, on A and on B.
     pub(crate) points: [DVec3; 2],
@@ -74,7 +74,7 @@ pub(crate) struct Witness {
     pub(crate) at_least: f64,
     /// The unit axis of that projection, from A to B.
     pub(crate) normal: DVec3,
-    /// The unit axis from one witness point to the other; that of the projection where they are too close to tell.
+    /// The unit axis from one witness point to the other; `normal` where they are too close to each other.
     pub(crate) across: DVec3,
     pub(crate) point_a: DVec3,
     pub(crate) point_b: DVec3,
@@ -89,7 +89,7 @@ impl Witness {
     }
 }
 
-/// What the iteration asks of a body: vertices, in the frame of the pair.
+/// What the iteration needs of a body: its vertices, in the frame of the pair.
 pub(crate) trait Polytope {
     /// The vertex furthest along a direction of unit length.
     fn furthest(&self, direction: DVec3) -> usize;
@@ -97,17 +97,17 @@ pub(crate) trait Polytope {
     fn point(&self, vertex: usize) -> DVec3;
 }
 
-/// A vertex of A and one of B, and the place of their difference.
+/// A vertex of A and one of B, and their difference.
 type Vertex = ([usize; 2], DVec3);
 
-/// What a corner more made of a simplex.
+/// What adding a corner did to a simplex.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one step")]
 enum Grown {
     /// Its nearest point came nearer.
     Nearer,
-    /// Nothing new.
+    /// No nearer: the corner is left out again.
     Not,
-    /// The four corners hold the origin: with the new one they are all still here.
+    /// The four corners hold the origin; all of them are still stored.
     Around,
 }
 
@@ -121,11 +121,11 @@ struct Simplex {
     nearest: DVec3,
 }
 
-/// Narrows the distance down.
+/// Brings the two bounds on the distance together, until they meet or `until` says to stop.
 pub(crate) fn distance(a: &impl Polytope, b: &impl Polytope, towards_b: DVec3, until: &Until) -> Reached {
     let precision = until.precision;
     let size = precision.size;
-    // The furthest vertex of the difference, and the separation that the direction shows.
+    // The support vertex of the difference, and the separation that the direction shows.
     let corner = |direction: DVec3| {
         let (in_a, in_b) = (a.furthest(direction), b.furthest(-direction));
         let place = a.point(in_a) - b.point(in_b);
@@ -181,9 +181,9 @@ pub(crate) fn distance(a: &impl Polytope, b: &impl Polytope, towards_b: DVec3, u
 
 /// Whether four corners hold the origin for certain.
 ///
-/// They do where the origin lies on the same side of all four faces: the four volumes that it spans with them have one
-/// sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m
-/// is off by less than 6 m^2 of that, and by less than 16 roundings of m^3.
+/// They do where the origin lies on the same side of all four faces: the four volumes that it spans with the faces have
+/// one sign. A corner is off by at most `projection` in each coordinate, so that a volume of corners no longer than m
+/// is off by less than 6 m^2 times that, and by less than 16 roundings of m^3.
 pub(super) fn is_around_origin([a, b, c, d]: [DVec3; 4], precision: &Precision) -> bool {
     let longest = [a, b, c, d].iter().map(|corner| corner.abs().element_sum()).fold(0.0, f64::max);
     let doubt = longest * longest * (6.0 * precision.projection() + 8.0 * f64::EPSILON * longest);
@@ -211,8 +211,7 @@ impl Simplex {
         (0..4).any(|i| self.vertices[i] == vertices && i < self.corners.count)
     }
 
-    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
-    /// `length`.
+    /// Adds a corner and drops those that then do not carry the nearest point, if that is nearer than `length`.
     #[inline(always)]
     fn grow(&mut self, (vertices, place): Vertex, length: f64) -> Grown {
         let new = self.corners.count & 3;
@@ -232,22 +231,22 @@ impl Simplex {
         Grown::Not
     }
 
-    /// Leaves out the corners that do not carry the nearest point.
+    /// Drops the corners that do not carry the nearest point.
     #[inline(always)]
     fn keep(&mut self, nearest: &Nearest) {
         (self.nearest, self.weights, self.corners.count) = (nearest.point, nearest.weights, nearest.count);
-        // Of those that count never from a place that was written: picks ascend.
+        // Of those that count, none is read after it was overwritten: picks ascend.
         for (to, &from) in nearest.picks.iter().enumerate() {
             self.vertices[to] = self.vertices[from & 3];
             self.corners.places[to] = self.corners.places[from & 3];
         }
     }
 
-    /// Goes on to the nearest point of the faces of four corners, which hold the origin but for rounding: so much
-    /// closer than the last point was, that what is not proved is told by it. That was `length` away.
+    /// Moves to the nearest point of the faces of four corners, which hold the origin up to rounding. The last point
+    /// was `length` away; this one is so much closer that it is reported where the overlap is not proved.
     fn go_to_nearest_face(&mut self, length: f64) {
         let around = (self.vertices, self.corners.places);
-        // Until a face is nearer: the point was on that of the first three.
+        // Until a face is nearer, that of the first three, which the last point was on.
         self.corners.count = 3;
         let mut best = length * length;
         for left_out in 0..4 {
@@ -265,8 +264,8 @@ impl Simplex {
         }
     }
 
-    /// The unit direction to the origin that is square to the simplex: where the origin is all but on it, the
-    /// straight one is rounding, and this one tells.
+    /// The unit direction to the origin that is perpendicular to the simplex: where the origin nearly lies on the
+    /// simplex, the straight direction is rounding, and this one is not.
     fn square_to_origin(&self, straight: DVec3) -> DVec3 {
         let [a, b, c, _] = self.corners.places;
         let square = match self.corners.count {
@@ -278,13 +277,13 @@ impl Simplex {
         if square.dot(straight) < 0.0 { -square } else { square }
     }
 
-    /// The points of A and B that the weights make.
+    /// The points of A and B that the weights give.
     fn points(&self, a: &impl Polytope, b: &impl Polytope) -> [DVec3; 2] {
         [self.weighted(a, 0), self.weighted(b, 1)]
     }
 
-    /// The point of A or B that the weights make. Of differences from the first corner, and not of the corners: what
-    /// the weights' sum lost to rounding shrinks with them.
+    /// The point of A or B that the weights give. Summed over differences from the first corner, not over corners: what
+    /// the weights' sum lost to rounding is scaled down with them.
     fn weighted(&self, body: &impl Polytope, which: usize) -> DVec3 {
         let first = body.point(self.vertices[0][which]);
         let mut sum = first;

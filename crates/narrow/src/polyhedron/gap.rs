@@ -1,6 +1,6 @@
-//! What is told of two solids of which nothing but closest points are wanted.
+//! The answer for two solids of which only closest points are wanted.
 //!
-//! Few words, and no axes, faces or edges: what the kernels know of a pair besides is a kilobyte, and to write that
+//! It is small, without axes, faces or edges: what else the kernels know of a pair is a kilobyte, and to write that
 //! took a third of the time that the points took.
 
 use super::distance::{Close, Reached, Witness};
@@ -10,11 +10,11 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 
 /// Whether two solids have a gap between them.
 pub(crate) enum Gap {
-    /// One of so many metres at least, which is further than was asked.
+    /// A gap of at least this many metres, which is beyond the limit.
     Beyond(f32),
     Apart(Apart),
     Overlapping,
-    /// It takes a closer look to tell.
+    /// It takes a closer look to decide.
     Unclear,
 }
 
@@ -24,14 +24,14 @@ pub(crate) struct Apart {
     /// In metres; never zero.
     pub(crate) separation: f32,
     pub(crate) error: f32,
-    /// Unit axis from A to B, which shows it.
+    /// Unit axis from A to B that shows the separation.
     pub(crate) normal: DVec3,
     /// Closest points of the shapes, in the frame of the pair.
     pub(crate) points: [DVec3; 2],
 }
 
 impl Gap {
-    /// What the distance iteration tells of two cores for certain, with what rounds them.
+    /// What the distance iteration has proved of two cores, given their radii.
     pub(super) fn of(reached: &Reached, radii: [f32; 2], beyond: f64, precision: &Precision) -> Self {
         let witness = match reached {
             Reached::Origin(Close { is_proved: true, .. }) => return Self::Overlapping,
@@ -61,7 +61,7 @@ impl Gap {
 }
 
 impl Witness {
-    /// Whether the points tell everything: their bounds met, and the axis from one to the other is no rounding.
+    /// Whether the points suffice: both bounds meet, and the axis from one point to the other is not rounding.
     pub(super) fn is_plain(&self, precision: &Precision) -> bool {
         let size = precision.size;
         !self.is_close(size) && self.distance - self.at_least <= 2.0 * DISTANCE_GAP * size

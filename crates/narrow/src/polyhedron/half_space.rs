@@ -1,4 +1,4 @@
-//! A half-space against a core: a search for the nearest vertex, one axis in all.
+//! A half-space against a core: a support search along the only axis there is.
 //!
 //! Of all directions only the plane's own normal can show a gap or a finite depth, so the separation is exact up to
 //! rounding: the least height of a vertex over the plane.
@@ -43,7 +43,7 @@ impl Plane {
         (vertex, self.height(core.point(vertex)))
     }
 
-    /// The same of a shape that has its axes and its origin there: where the vertex is. To make a [`Solid`] of a cuboid
+    /// The position of [`Plane::lowest`] for a shape with these axes and this origin. To build a [`Solid`] of a cuboid
     /// or a capsule takes longer.
     #[inline]
     pub(crate) fn lowest_of(&self, shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> DVec3 {
@@ -64,8 +64,8 @@ impl Plane {
         }
     }
 
-    /// Two half-spaces: the distance of planes that look exactly away from each other; else they overlap without end.
-    /// `are_opposed` is asked only where the planes are parallel up to rounding.
+    /// The separation of two half-spaces: the distance of their planes if the normals are exactly opposite; else they
+    /// overlap without bound. `are_opposed` is called only where the planes are parallel up to rounding.
     pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
         let may_be =
             self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0;
@@ -78,8 +78,9 @@ impl Plane {
         [self, other].map(|plane| middle - plane.normal * plane.height(middle))
     }
 
-    /// The corners, at most four, of the face that looks at the plane, and no more than `margin` above it. Corners that
-    /// are no higher than the lowest, up to `preference`, are as deep as any; up to `even`, for the choice of four.
+    /// Contact points at corners, at most four, of the face that faces the plane, no more than `margin` above it.
+    /// Corners within the first of `slacks` (the preference) of the lowest are as deep as any; within the second
+    /// (`even`), they are for the choice of four.
     pub(crate) fn touch(&self, core: &Solid, margin: f64, slacks: [f64; 2]) -> Touch {
         let opposed = opposed_face(core, self.normal, slacks[0]);
         let corners = core.topology.face_vertices(opposed.face).map(|vertex| (vertex, core.point(vertex)));
@@ -88,8 +89,8 @@ impl Plane {
         self.touch_corners(corners, lowest, (core.radius, outwards), margin, slacks)
     }
 
-    /// The same of a shape that has its axes and its origin there: where it can be told without a [`Solid`], which
-    /// takes as long as all else of a cuboid or a capsule.
+    /// [`Plane::touch`] for a shape with these axes and this origin: without a [`Solid`] where possible, since building
+    /// that from a cuboid or a capsule takes as long as all the rest.
     #[inline]
     pub(crate) fn touch_shape(
         &self,
@@ -123,8 +124,8 @@ impl Plane {
         self.touch(&Solid::new(&core, *basis, origin, f64::from(shape.radius())), margin, slacks)
     }
 
-    /// The face of a cuboid that looks at the plane: as [`opposed_face`], where no more than four corners are as low as
-    /// the lowest, up to the slack, and those on one face.
+    /// The face of a cuboid that faces the plane, as [`opposed_face`]; `None` unless at most four corners are as low as
+    /// the lowest, up to the slack, and lie on one face.
     fn face_of(&self, cuboid: &Cuboid, basis: &Basis3, slack: f64) -> Option<usize> {
         let down = basis.turn_back(-self.normal).to_array();
         let rises = [0, 1, 2].map(|axis| 2.0 * f64::from(cuboid.half_extents()[axis]) * down[axis].abs());
@@ -134,15 +135,15 @@ impl Plane {
         if is_level == [true; 3] || all > slack {
             return None;
         }
-        // Of those that have all of the lowest corners, the one that looks down the most; of equals, the first.
+        // Of the faces that have all of the lowest corners, the one that faces down the most; on ties, the first.
         let faces = (0..3)
             .filter(|&axis| !is_level[axis])
             .map(|axis| (2 * axis + usize::from(down[axis] > 0.0), down[axis].abs()));
         faces.reduce(|best, next| if next.1 > best.1 { next } else { best }).map(|(face, _)| face)
     }
 
-    /// What corners of a face become contacts, by their numbers, with the lowest of all, and how far the surface lies
-    /// beyond them and in which direction.
+    /// The contact points of a face's corners, which come with their numbers. `lowest` is the lowest vertex of all;
+    /// `radius` and `outwards` say how far the surface lies beyond the face, and in which direction.
     #[inline]
     fn touch_corners(
         &self,
@@ -157,7 +158,7 @@ impl Plane {
         let mut points: ArrayVec<Point, MAX_HULL_VERTICES> = ArrayVec::new();
         for (vertex, corner) in corners {
             let is_deep = vertex == lowest.0 || self.height(corner) <= deep;
-            // What is higher belongs to a tilted face, whose surface lies out along its own normal.
+            // A higher corner belongs to a tilted face, whose surface lies out along the face's own normal.
             let Some(outwards) = (if is_deep { Some(-self.normal) } else { outwards }) else { continue };
             let point = corner + outwards * radius;
             let separation = if is_deep { self.height(corner) - radius } else { self.height(point) };
@@ -200,7 +201,7 @@ mod tests {
     use asunder_geometry::glam::{Quat, Vec3};
     use asunder_geometry::{Capsule3, Pose3, Segment3};
 
-    /// Upright and all but upright, where several corners are as low as the lowest, and in any pose; plates and rods,
+    /// Upright and nearly upright, where several corners are as low as the lowest, and in any pose; plates and rods,
     /// too.
     #[test]
     fn a_shape_touches_as_its_solid_does() {

@@ -1,7 +1,7 @@
-//! Convex polyhedra: yes or no, separation, distance and contact manifolds.
+//! Convex polyhedra: overlap test, separation, distance and contact manifolds.
 //!
-//! What decides is in f64, or shown by f32 with a bound on its rounding; lanes of f32 leave out what bounds prove to be
-//! of no use. [`cuboids`] has faster kernels for two of them, which must agree with what is here.
+//! Decisions are made in f64, or in f32 with a bound on its rounding; lanes of f32 discard what bounds prove to be
+//! irrelevant. [`cuboids`] has faster kernels for two cuboids, which must agree with those here.
 
 pub(crate) mod closest;
 pub(crate) mod convex;

@@ -1,17 +1,17 @@
 //! Vertices eight by eight, in f32 lanes.
 //!
-//! Lanes are made where they are used, in explicit vectors: of plain loops LLVM made vectors of two where the greatest
-//! of eight is wanted next, four for each eight vertices in place of two.
+//! Lanes are computed where they are used, in explicit vectors: where the greatest of eight is wanted next, LLVM made
+//! plain loops into vectors of two, four for each eight vertices in place of two.
 
 use crate::counted::count_step;
 use asunder_geometry::VertexOctet;
 use asunder_geometry::glam::{DVec3, Vec3};
 use wide::f32x8;
 
-/// Octets whose lanes have a bit each in a word of 32. Of so many projections are kept, and not made twice.
+/// Octets whose lanes have a bit each in a 32-bit word. Up to this many, projections are kept and not computed twice.
 pub(super) const IN_A_WORD: usize = 4;
 
-/// A direction of any length in f32, in all lanes.
+/// A direction of any length in f32, broadcast to all lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Along {
     lanes: [f32x8; 3],
@@ -25,11 +25,11 @@ impl Along {
         Self { lanes: direction.to_array().map(f32x8::splat), direction }
     }
 
-    /// How far the lanes of two vertices may be off together, of which no coordinate is greater than `extent`.
+    /// A bound on the error of two vertices' lanes together, where no coordinate is greater than `extent`.
     #[inline(always)]
     pub(super) fn doubt(&self, extent: f32) -> f32 {
         // Conversion, product and two sums: below 4.1 units of 2^-24 of the terms' sum, on both sides; and one each
-        // where the doubt, and perhaps a slack, is taken off.
+        // where the doubt, and perhaps a slack, is subtracted.
         10.5 * (f32::EPSILON / 2.0) * extent * self.direction.abs().element_sum()
     }
 
@@ -57,8 +57,7 @@ impl Along {
         greatest(top)
     }
 
-    /// The greatest projection, and the vertex that it is of, or a place behind the last; of equals that of the lowest
-    /// lane.
+    /// The greatest projection and its vertex, which may be padding behind the last; on ties, the lowest lane.
     #[inline(always)]
     pub(super) fn furthest(&self, octets: &[VertexOctet]) -> (f32, usize) {
         if let [octet] = octets {
@@ -69,7 +68,7 @@ impl Along {
         let best = self.highest(octets);
         let (mut lane, mut place) = (8, 0);
         for (octet, first) in octets.iter().zip((0..).step_by(8)) {
-            // Seen once already, and counted.
+            // Already counted once, in `highest`.
             let reach = self.dot([&octet.x, &octet.y, &octet.z]);
             let lowest = lanes_from(reach, best).trailing_zeros() as usize;
             let is_lower = lowest < lane;
@@ -79,8 +78,8 @@ impl Along {
         (best, place + lane)
     }
 
-    /// The one vertex whose projection comes to the greatest but for what both may be off by, of up to 32; nothing
-    /// where there are more.
+    /// The only vertex, of up to 32, whose projection is the greatest up to both projections' errors; `None` where
+    /// there are more.
     #[inline(always)]
     pub(super) fn only(&self, octets: &[VertexOctet], extent: f32) -> Option<usize> {
         if octets.len() > IN_A_WORD {
@@ -108,7 +107,7 @@ impl Along {
         near.is_power_of_two().then(|| near.trailing_zeros() as usize)
     }
 
-    /// Which of up to 32 vertices come to `least`: a bit each, the first the lowest.
+    /// A mask of which of up to 32 vertices come to `least`: a bit each, the first the lowest.
     #[inline(always)]
     pub(super) fn those_from(&self, octets: &[VertexOctet], least: f32) -> u32 {
         debug_assert!(octets.len() <= IN_A_WORD, "each lane has a bit");
@@ -120,7 +119,7 @@ impl Along {
     }
 }
 
-/// No less than how far vertices reach along a direction of any length, all in their own axes: as
+/// An upper bound on how far vertices reach along a direction of any length, all in their own axes: as
 /// [`Solid::rough_support`](super::solid::Solid::rough_support), without the vertex. No coordinate is greater than
 /// `extent`.
 #[inline]
@@ -137,11 +136,11 @@ fn greatest(lanes: f32x8) -> f32 {
     greater(greater(four[0], four[2]), greater(four[1], four[3]))
 }
 
-/// Which of eight lanes come to `least`: a bit each, the first the lowest.
+/// A mask of which of eight lanes come to `least`: a bit each, the first the lowest.
 ///
-/// Processors have an instruction for it that plain loops do not come to: they make eight shifts, or turn four octets
-/// into columns first. [`Solid::support`](super::solid::Solid::support) takes two thirds of the time with it, a frame
-/// of falling hulls 0.91.
+/// Processors have an instruction for this that plain loops do not compile to: those make eight shifts, or transpose
+/// four octets first. [`Solid::support`](super::solid::Solid::support) takes two thirds of the time with it, a frame of
+/// falling hulls 0.91.
 #[inline(always)]
 pub(super) fn lanes_from(lanes: f32x8, least: f32) -> u32 {
     lanes.simd_ge(f32x8::splat(least)).to_bitmask()
@@ -163,7 +162,7 @@ mod tests {
     #[test]
     fn the_furthest_is_that_of_the_lowest_lane() {
         let mut state = 7_u32;
-        // Coarse, so that many are equally far.
+        // Coarse, so that many vertices are equally far.
         let mut number = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 29) as f32 - 3.5

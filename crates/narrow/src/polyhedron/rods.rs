@@ -1,7 +1,7 @@
-//! Edges and segments that lie side by side: two points in place of one that jumps from end to end.
+//! Edges and segments that lie side by side: two contact points in place of one that jumps from end to end.
 //!
 //! A capsule that rests along the edge of a box is closest to it at either end, or anywhere between, by a hair. It
-//! rests on the whole stretch that both share, and so on both ends of that.
+//! rests on the whole stretch that both share, so the contact points go to both ends of that stretch.
 
 use super::manifold::{Far, Point};
 use super::slender::Slender;
@@ -14,8 +14,8 @@ use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 /// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
 const MAX_HALF_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
-/// Share of a rod's length by which a place on it may be past its end, and count as the end; and of a stretch that is
-/// none.
+/// Share of a rod's length by which a place on it may be past its end and still count as the end; a shared stretch that
+/// is no longer counts as none.
 const SHARE: f64 = 1e-9;
 
 /// An edge of a core, or all of a segment.
@@ -27,7 +27,7 @@ pub(super) struct Rod {
 }
 
 impl Rod {
-    /// A segment; nothing of a point.
+    /// A segment; `None` for a point.
     pub(super) fn of_slender(core: &Slender) -> Option<Self> {
         let &Slender { ends, is_point, radius } = core;
         let vertices = [Feature::Vertex(0), Feature::Vertex(1)];
@@ -49,8 +49,8 @@ impl Rod {
     }
 }
 
-/// Two points of edges that lie side by side across a gap of `distance` between the cores, if a pair of them does:
-/// one point as deep as any, and both at most `within` apart.
+/// Two contact points of edges that lie side by side across a gap of `distance` between the cores, if some pair does:
+/// one of them as deep as any, and the separation of both at most `within`.
 pub(super) fn side_by_side(
     (a, b): (&Solid, &Solid),
     normal: DVec3,
@@ -79,8 +79,8 @@ pub(super) fn side_by_side(
     None
 }
 
-/// The edges at a core's furthest vertex that run nearly across a direction, in order: looked for around the
-/// vertices that are as far, which are few.
+/// The edges, in order, at a core's furthest vertices along a direction that are nearly perpendicular to it. Only the
+/// few vertices that are as far are visited.
 fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MAX_HALF_EDGES> {
     let local = solid.turned_back(direction);
     let mut edges = ArrayVec::new();
@@ -95,7 +95,7 @@ fn edges_across(solid: &Solid, direction: DVec3, slack: f64) -> ArrayVec<u16, MA
             }
         }
     }
-    // An edge between two vertices that are as far is there twice.
+    // An edge between two vertices that are as far is listed twice.
     edges.sort_unstable();
     let mut last = None;
     edges.retain(|edge| last.replace(*edge) != Some(*edge));
@@ -119,7 +119,8 @@ pub(super) fn shared_stretch(
     if !(lengths_squared > 0.0 && cosine_squared >= ALIGNED_FACES * ALIGNED_FACES * lengths_squared) {
         return none;
     }
-    // Places along the part of A's direction that lies across the normal; none to speak of where they lie in one line.
+    // Places along the part of A's direction that is perpendicular to the normal; where little of that is left, the
+    // rods lie in one line along the normal.
     let side = along_a - normal * normal.dot(along_a);
     if side.length_squared() < 0.5 * along_a.length_squared() {
         return none;
@@ -149,14 +150,15 @@ struct Over {
 }
 
 impl Over {
-    /// The contact where two rods lie over each other, by the places on them; nothing where they lie beside each other.
+    /// The contact point of two rods at the given places; `None` where the rods lie beside each other there, not over
+    /// each other.
     fn point(&self, a: &Rod, b: &Rod, [s, t]: [f64; 2], feature: FeatureId) -> Option<Point> {
         let normal = self.normal;
         let on_a = a.ends[0] + a.along() * s.clamp(0.0, 1.0);
         let on_b = b.ends[0] + b.along() * t.clamp(0.0, 1.0);
         let separation = normal.dot(on_b - on_a);
-        // Rods that cross at a small angle lie beside each other at the ends. Points of round ones may meet half way:
-        // they leave the surfaces by the square of that.
+        // Rods that cross at a small angle lie beside each other at the ends. Points of round rods may be moved
+        // sideways to meet: that takes them off the surfaces only by the square of the distance.
         let aside = on_b - on_a - normal * separation;
         let radii = a.radius + b.radius;
         if aside.length_squared() > (2.0 * radii * self.preference).max(self.preference * self.preference) {
@@ -169,8 +171,8 @@ impl Over {
         Some(Point { separation: separation - rise_a - rise_b, on_a, on_b, feature })
     }
 
-    /// How far over a place on a rod its surface lies, seen along `outwards`: over its near end, r; over a rod that
-    /// leans by t, r / cos t. Nothing where that is past the rod's end, and so on its cap.
+    /// How far a rod's surface lies over a place on it, along `outwards`: r at the end where the rods are closest, r /
+    /// cos t over a rod that leans by t. `None` where that is past the rod's end, and so on its cap.
     fn rise(&self, rod: &Rod, place: f64, separation: f64, outwards: DVec3) -> Option<f64> {
         if separation <= self.deep {
             return Some(rod.radius);
@@ -178,7 +180,7 @@ impl Over {
         let (lean, squared) = (outwards.dot(rod.along()), rod.along().length_squared());
         let rise = rod.radius / (1.0 - lean * lean / squared).sqrt();
         let foot = place + rise * lean / squared;
-        // The end of a stretch is most often the end of a rod, and square to the normal up to rounding.
+        // The end of a stretch is most often the end of a rod that is perpendicular to the normal up to rounding.
         (-SHARE..=1.0 + SHARE).contains(&foot).then_some(rise)
     }
 }

@@ -1,66 +1,73 @@
 //! The separating axis test for two convex polyhedra.
 //!
 //! ```text
-//! for the most promising face of A, of B:   axis = its normal
-//! from the better one's facet of A - B to the nearest; if it is known to be that: done              (walk, facet, cover)
-//! for each other face that spheres inside the other solid leave open: axis = its normal                   (cull)
-//! of prisms and their like: a polytope that grows in A - B; if it tells: done                           (grow)
-//! for each pair of edges that they leave open, and whose arcs on the Gauss map may cross:           (arcs, caps)
-//!                                           axis = the cross product, unless they are nearly parallel,
-//!                                           or themselves show less than the best axis so far
+//! for the most promising face of A and of B:   axis = its normal
+//! walk from the better one's facet of A - B to the nearest; if that is proved to be it: done      (walk, facet, cover)
+//! for each other face that spheres inside the other solid do not rule out:   axis = its normal                  (cull)
+//! for prisms and their like: an expanding polytope in A - B; if it finds the nearest facet: done                (grow)
+//! for each pair of edges that the spheres do not rule out and whose arcs on the Gauss map may cross:      (arcs, caps)
+//!                                              axis = the cross product, unless the edges are nearly parallel,
+//!                                              or already show less by themselves than the best axis so far
 //! the separation along an axis = min over B - max over A, projecting *every* vertex
 //! the greatest separation wins
 //! ```
 //! An edge pair bounds the Minkowski difference exactly when the arc between the normals at A's edge crosses the arc
-//! between the (negated) normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013).
-//! The arc test here only saves time, and errs towards keeping a pair: what it keeps is verified by full projection,
-//! so noise in a cross product can make an axis useless but never wrong. Which way a cross product points is told by
-//! the arc of A's edge, and not by the centres, which may coincide.
+//! between the (negated) normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC 2013). The
+//! arc test here only saves time, and errs towards keeping a pair. Every axis that is kept is verified by full
+//! projection, so noise in a cross product can make an axis useless but never wrong. A cross product is oriented by the
+//! arc of A's edge and not by the centres, which may coincide.
 //!
-//! An axis that is a little off its place shows a little less than it should, never more. How much that may be is kept
-//! beside the best separation ([`Axes::short`]): one edge pair at a small angle costs only its own pair's precision.
+//! An axis that is slightly off shows slightly less separation than the true one, never more. The possible shortfall is
+//! kept beside the best separation ([`Axes::short`]): an edge pair at a small angle widens the error of its own pair of
+//! solids only.
 //!
-//! What makes it cheap, and what each bought on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain
-//! test took 52 us on mixed pairs and 85 on deep ones, and takes 1.6 and 6.5):
+//! What makes it cheap, and what each measure saved on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain
+//! test took 52 us on mixed pairs and 85 on deeply overlapping ones, and now takes 1.6 and 6.5):
 //!
-//! 1. *arcs eight at a time*, in f32, over data built with the hull: deep 85 -> 19 us;
-//! 2. *spheres*: faces and edges that cannot win for the sphere inside the other, or for its vertices: deep 19 -> 7.8
-//!    us;
-//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound will
-//!    do, f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
+//! 1. *arcs eight at a time*, in f32, over data precomputed with the hull: deep 85 -> 19 us;
+//! 2. *spheres*: faces and edges that cannot win, judged by a sphere inside the other solid or by its vertices, are
+//!    skipped: deep 19 -> 7.8 us;
+//! 3. *support in lanes*: f32 discards, f64 chooses among what is left, 35 -> 19 ns for 32 vertices; where a bound
+//!    suffices, f32 alone: mixed 1.75 -> 1.62 us, and face on face 3.5 -> 3.1;
 //! 4. *the edges themselves, and vertices seen so far*, bound an edge pair's axis before it is projected, without a
-//!    quotient: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they do: 3.3 ->
-//!    3.1;
-//! 5. *a proof by one facet*: last frame's axis needs nothing else. Face on face 6.2 -> 1.0 us with its manifold,
-//!    sliding 4.2 -> 1.0, tumbling 3.2 -> 1.7. In a gap the same (`across`). Where it is not proved, it is the bound to
-//!    beat from the start: a frame of a pile of hulls 5 % less (2026-11-22);
-//! 6. *a walk to it* from last frame's axis, or from the best of two promising faces, over the facets between (`walk`),
-//!    and single vertices where no ball proves the end (`cover`): of hulls that fall on each other 4 pairs a frame come
-//!    to the rest of this test, where it was 670. Frames 7 to 20 % less (2026-11-24). Before the search for a
-//!    direction, for those that meet for the first time: face on face 2.2 -> 1.6 (2026-11-26).
+//!    division: prisms, whose edges are parallel, deep 4.9 -> 4.0 us; the edges first, and alone where they suffice:
+//!    3.3 -> 3.1;
+//! 5. *a proof by one facet*: where last frame's axis is still the best, no other is evaluated. Face on face 6.2 -> 1.0
+//!    us with its manifold, sliding 4.2 -> 1.0, tumbling 3.2 -> 1.7. The same in a gap (`across`). Where the proof
+//!    fails, last frame's axis is the bound to beat from the start: a frame of a pile of hulls 5 % less (2026-11-22);
+//! 6. *a walk to the best facet* from last frame's axis, or from the better of two promising faces, over the facets
+//!    between (`walk`), with single vertices as proof where no ball suffices (`cover`): of hulls that fall on each
+//!    other, 4 pairs a frame need the rest of this test, where it was 670. Frames 7 to 20 % less (2026-11-24). For
+//!    pairs that meet for the first time, a walk before the search for a direction: face on face 2.2 -> 1.6
+//!    (2026-11-26).
 //!
-//! And on two of 256 that are symmetric enough for nothing to be culled, as equal double cones in one place (1.9 ms):
+//! And on two hulls of 256 vertices too symmetric for any culling, such as equal double cones in one place (1.9 ms):
 //!
-//! 7. *caps about eight arcs*, of edges sorted by where they look: 1.9 -> 0.9 ms, prisms 1.4 -> 1.1;
+//! 7. *caps around eight arcs*, of edges sorted by the direction they face: 1.9 -> 0.9 ms, prisms 1.4 -> 1.1;
 //! 8. *the edges themselves* (4): prisms 1.1 -> 0.8, flat ones 0.8 -> 0.6;
-//! 9. *no closer look* where it settles nothing: cones 0.9 -> 0.7.
+//! 9. *no closer look* where it rules nothing out: cones 0.9 -> 0.7.
 //!
-//! And on prisms, whose rims look everywhere between a cap and a side:
+//! And on prisms, whose rim edges have arcs that fan out from a cap's normal to every side's:
 //!
-//! 10. *a polytope that grows*, in place of pairs of edges: of 128 sides, deep, 200 us -> 18; of 24, 24 -> 8
-//!     (2026-11-26).
+//! 10. *an expanding polytope* in place of edge pairs: 128 sides, deep, 200 us -> 18; 24 sides, 24 -> 8 (2026-11-26).
 //!
-//! Tried, and dropped: AVX2 for the whole test behind run-time detection (0 to 15 % slower, though the whole program
-//! compiled for it is 8 to 15 % faster: calls that are not inlined pay for the border); AVX2 for the support alone (no
-//! gain); one lane in place of eight for faces and edges (4 times slower); no culling below 24 edges (twice as slow for
-//! 8 vertices); masks in place of eight numbers (slower in portable Rust); the best direction of the search before as a
-//! first bound (no gain); the furthest vertex as a sum of indices without branches (20 % slower: branches are guessed,
-//! sums are waited for); arcs' eights given up between the two great circles and the meeting point (cones 15 % faster,
-//! all else 3 to 6 % slower); a support search that keeps its projections for the second look (a fifth fewer
-//! instructions, no time), or takes f32's winner where none is near (none); the corners of last frame's axis shown to
-//! either solid first, where that was not proved (crowds 2 % slower, else nothing).
+//! Tried, and dropped:
 //!
-//! Cost: linear in faces, edges and vertices; what the spheres leave, faces times vertices and edges times edges.
+//! - AVX2 for the whole test behind run-time detection: 0 to 15 % slower, though the whole program compiled for it is 8
+//!   to 15 % faster, because calls across that border are not inlined; AVX2 for the support search alone: no gain;
+//! - one lane in place of eight for faces and edges: 4 times slower; no culling below 24 edges: twice as slow for 8
+//!   vertices; masks in place of eight numbers: slower in portable Rust;
+//! - the best direction of the preceding search as a first bound: no gain;
+//! - the furthest vertex as a branch-free sum of indices: 20 % slower, since branches are predicted and sums are waited
+//!   for;
+//! - leaving an octet of arcs between the test of the two great circles and that of the meeting point: cones 15 %
+//!   faster, all else 3 to 6 % slower;
+//! - keeping the projections of a support search for its second pass: a fifth fewer instructions, no time; taking f32's
+//!   winner where no other is near: none either;
+//! - showing the corners of last frame's axis to each solid first, where that axis was not proved: crowds 2 % slower,
+//!   else nothing.
+//!
+//! Cost: linear in faces, edges and vertices; for what the spheres leave, faces times vertices and edges times edges.
 
 mod across;
 mod arcs;
@@ -94,39 +101,39 @@ pub(crate) use walk::Ended;
 /// Edges of a hull with the most vertices, by Euler's formula.
 const MAX_EDGES: usize = 3 * MAX_HULL_VERTICES - 6;
 
-/// Where more edges of B are left, all of them are turned beforehand.
+/// With more edges of B left than this, all of them are transformed beforehand.
 const MANY: usize = 64;
 
-/// So many pairs of edges may take longer than a polytope.
+/// From this many pairs of edges on, an expanding polytope may be faster.
 const MANY_PAIRS: usize = 1600;
 
-/// Vertices of each solid that are kept to tell that an axis is not the best.
+/// Vertices kept of each solid to show that an axis is not the best.
 const SEEN: usize = 6;
 
 /// What is asked of the test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
-    /// A separation that the shapes have for certain: what is no better is left out.
+    /// A separation that is certain: axes that show no more are left out.
     pub(crate) known: f64,
-    /// What the axis of the last frame shows, where it was not proved to be the best: no walk begins at a face that
-    /// shows no more.
+    /// The separation along last frame's axis, where that was not proved to be the best: no walk starts from a face
+    /// that shows no more.
     pub(crate) unproved: f64,
-    /// How far edges may lie from the supporting planes of the axis that is theirs.
+    /// How far two edges may lie off the supporting planes of their own axis.
     pub(crate) slack: f64,
     pub(crate) precision: &'a Precision,
 }
 
 impl Search<'_> {
-    /// By how much an axis may be worse than the best and still count: a contact may be built on it.
+    /// By how much an axis may fall short of the best and still be kept, since a contact may be built on it.
     fn keep(&self) -> f64 {
         4.0 * (self.slack + self.precision.projection())
     }
 
-    /// By how much edges may be better than the best face and still count as even with it: nothing next to the f32
-    /// of the answer.
+    /// By how much an edge pair may beat the best face and still count as even with it: nothing next to the rounding of
+    /// the answer to f32.
     ///
-    /// Where edges end at one normal, or are parallel, as those of two prisms, all their pairs have the axis of a
-    /// face up to rounding: one by one, two prisms of 128 sides in one place took 14 ms.
+    /// Where the edges' arcs end at the same normal, or the edges are parallel, as between two prisms, every pair has
+    /// the axis of a face up to rounding: tested one by one, two prisms of 128 sides in one place took 14 ms.
     fn even(&self, best: f64) -> f64 {
         64.0 * self.precision.projection() + best.abs() * f64::from(f32::EPSILON) / 128.0
     }
@@ -135,7 +142,7 @@ impl Search<'_> {
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     begun((a, b), search, |mut found, sights, first| {
-        // One that shows no more than last frame's, which led nowhere, is no better a start.
+        // A face that shows no more than last frame's axis, from which no walk succeeded, is no better a start.
         if found.axes.best().separation > search.unproved
             && let Some(first) = found.first_hinted(&first, search)
         {
@@ -153,12 +160,12 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     })
 }
 
-/// The axis of the most promising of all faces: where to begin, of solids about which nothing is known.
+/// The axis of the most promising face of both solids: where to start when nothing is known about them.
 pub(crate) fn first_axis(a: &Solid, b: &Solid, search: &Search) -> Option<Hinted> {
     begun((a, b), search, |found, _, first| found.first_hinted(&first, search))
 }
 
-/// The same of faces alone, for solids that a gap parts.
+/// [`separating_axes`] by faces alone, for solids separated by a gap.
 pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     begun((a, b), search, |mut found, sights, first| {
         found.by_faces(sights, &first, search);
@@ -166,10 +173,10 @@ pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     })
 }
 
-/// The most promising face of A, and of B, with the other's vertex that is furthest against it.
+/// The most promising face of A and of B, each with the other solid's deepest vertex against it.
 type First = [Option<[usize; 2]>; 2];
 
-/// The test, once the most promising faces have been asked.
+/// Evaluates the most promising faces, then hands over to `go_on`.
 #[inline(always)]
 fn begun<R>(
     (a, b): (&Solid, &Solid),
@@ -183,15 +190,15 @@ fn begun<R>(
     go_on(found, &mut sights, first)
 }
 
-/// The test under way.
+/// The state of the test.
 struct Found {
     axes: Axes,
-    /// How far the best edges lie aside from where the shapes reach furthest.
+    /// How far the best pair of edges lies off the supporting planes of its axis.
     aside: f64,
-    /// A separation that the shapes have for certain.
+    /// A separation that is certain.
     floor: f64,
-    /// Vertices of A, and of B, that were furthest along some axis. Along any other, the truth is no more than what
-    /// they show.
+    /// Support vertices of A and of B along earlier axes. Along any axis, the true separation is no more than they
+    /// show.
     seen: [ArrayVec<(usize, DVec3), SEEN>; 2],
 }
 
@@ -201,8 +208,8 @@ impl Found {
         Self { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen }
     }
 
-    /// The most promising face of each solid first, since the better the best axis is, the more is culled by it.
-    /// Returns those faces, and the other's vertices that are furthest against them.
+    /// Evaluates the most promising face of each solid first: the better the best axis, the more it culls. Returns
+    /// those faces, each with the other solid's deepest vertex against it.
     fn by_first_faces(&mut self, sights: &mut [Sight; 2], search: &Search) -> First {
         let mut first = [None; 2];
         for (which, sight) in sights.iter_mut().enumerate() {
@@ -216,7 +223,7 @@ impl Found {
         first
     }
 
-    /// The best of the first faces, where to begin.
+    /// The better of the first faces, to start a walk from.
     fn first_hinted(&self, first: &First, search: &Search) -> Option<Hinted> {
         let axis = *self.axes.best();
         let [of_a, of_b] = *first;
@@ -224,7 +231,7 @@ impl Found {
         Some(Hinted { axis, deepest, doubt: search.precision.of_face() })
     }
 
-    /// All other faces that may be as good.
+    /// Evaluates all other faces that may be as good.
     fn by_faces(&mut self, sights: &mut [Sight; 2], first: &First, search: &Search) {
         for (which, sight) in sights.iter_mut().enumerate() {
             let pair = [sight.solid, sight.other];
@@ -237,7 +244,7 @@ impl Found {
         self.axes.raise(self.axes.best().separation, search.precision.of_face());
     }
 
-    /// One face of A (0) or of B (1). Returns the other's vertex that is furthest against it.
+    /// Evaluates one face of A (0) or of B (1). Returns the other solid's deepest vertex against it.
     fn by_face(&mut self, [solid, other]: [&Solid; 2], which: usize, face: usize, search: &Search) -> usize {
         let outward = solid.normal(face);
         let (rough, excess) = other.rough_support(-outward);
@@ -257,14 +264,14 @@ impl Found {
         support.vertex
     }
 
-    /// Pairs of edges that may bear the best axis, as far as the other's spheres tell, and whose arcs may cross.
+    /// Evaluates the pairs of edges that the spheres do not rule out and whose arcs may cross.
     fn by_edges(&mut self, sights: &mut [Sight; 2], search: &Search) {
         let [in_a, in_b] = sights;
         let (a, b) = (in_a.solid, in_b.solid);
         if are_rimmed(a, b) && self.by_growing((a, b), search).is_some() {
             return;
         }
-        // Not an array of two: it would be blanked.
+        // Not an array of two: that would be cleared first.
         let mut edges_a = ArrayVec::<u16, MAX_EDGES>::new();
         let mut edges_b = ArrayVec::<u16, MAX_EDGES>::new();
         let least = self.floor - search.keep();
@@ -279,7 +286,7 @@ impl Found {
         if edges_b.len() > MANY {
             return self.by_many_edges((a, &edges_a), (b, &edges_b), search);
         }
-        // One edge of A comes with some of B.
+        // All pairs of one edge of A come in a row.
         let (mut at_a, mut out_of_a) = (EdgeAt::NONE, DVec3::ZERO);
         for_edge_pairs((a, &edges_a), (b, &edges_b), |[edge_a, edge_b], _| {
             if edge_a != at_a.half_edge {
@@ -293,18 +300,18 @@ impl Found {
         });
     }
 
-    /// What the best axis shows, or what some axis is known to, where that alone left all others out.
+    /// The separation of the best axis so far, or the known bound where that alone left all axes out.
     fn stake(&self) -> f64 {
         let best = self.axes.best().separation;
         if best == f64::NEG_INFINITY { self.floor } else { best }
     }
 
-    /// The best axis of all by a polytope, without a look at edges; nothing where that does not tell.
+    /// The best axis of all by an expanding polytope, without testing edge pairs; `None` where that does not find it.
     #[inline(never)]
     fn by_growing(&mut self, solids: (&Solid, &Solid), search: &Search) -> Option<()> {
         let precision = search.precision;
         let slack = search.even(self.stake());
-        // Without an axis to show it there is nothing to be proved, and the depth is to be found.
+        // Infinite while no axis was evaluated: then there is nothing to prove, and the depth has to be found.
         let known_depth = -self.axes.best().separation;
         let Bound { at_least, met } = grow(solids, (known_depth, slack), precision)?;
         if let Some(facet) = met {
@@ -317,8 +324,8 @@ impl Found {
         Some(())
     }
 
-    /// The same, each edge of B turned once: a third less where each comes with many of A. Apart, for the stack
-    /// that it takes.
+    /// [`Found::by_edges`] with each edge of B transformed once: a third less where each is paired with many of A. A
+    /// function of its own for the stack that it takes.
     #[inline(never)]
     fn by_many_edges(
         &mut self,
@@ -341,11 +348,12 @@ impl Found {
         });
     }
 
-    /// Whether the axis of two edges is not the best, or even with the best face, by no more than these edges: they
-    /// show no less than the truth. No root of a quotient: everything stays as long as the cross product.
+    /// Whether the two edges by themselves show that their axis is not the best, or no more than even with the best
+    /// face: they never show less than the true separation. No division: everything stays scaled by the length of the
+    /// cross product.
     #[inline(always)]
     fn is_settled(&mut self, edges: [&EdgeAt; 2], cross: &Cross, search: &Search) -> bool {
-        // As long as two: it takes 6 ns.
+        // Counted as two steps: it takes 6 ns.
         count_steps(2);
         if cross.is_noise() {
             return false;
@@ -355,13 +363,13 @@ impl Found {
         self.is_too_little(shown, (cross, length), search)
     }
 
-    /// Whether what is shown along an axis across two edges, times the length of their cross product, is no more
-    /// than the best axis so far, or than is even with the best face.
+    /// Whether the separation shown along the axis of two edges is no more than that of the best axis so far, or than
+    /// counts as even with the best face. `shown` is scaled by the length of the cross product.
     #[inline(always)]
     fn is_too_little(&mut self, shown: f64, (cross, length): (&Cross, f64), search: &Search) -> bool {
-        // Twice the rounding of an axis across two edges, which is a projection's over their sine: times the length
-        // of the cross product that is a projection's times both edges' lengths, of which half the sum of squares
-        // is no less.
+        // Twice the error of an edge pair's axis, which is that of a projection over the sine of their angle. Scaled by
+        // the length of the cross product, that is a projection's error times both edges' lengths, whose product is at
+        // most half the sum of their squares.
         let most = shown + search.precision.projection() * (2.0 * cross.lengths() + length);
         if most <= self.axes.best().separation * length {
             return true;
@@ -375,7 +383,7 @@ impl Found {
         is_even
     }
 
-    /// One pair of edges, unless the vertices seen so far show that its axis is not the best.
+    /// Evaluates one pair of edges, unless the vertices seen so far show that its axis is not the best.
     fn by_edge_pair(
         &mut self,
         (a, b): (&Solid, &Solid),
@@ -383,7 +391,7 @@ impl Found {
         cross: &Cross,
         search: &Search,
     ) {
-        // As long as five: it takes 20 ns.
+        // Counted as five steps: it takes 20 ns.
         count_steps(5);
         let precision = search.precision;
         if cross.is_noise() && self.are_parallel(cross, search) {
@@ -411,7 +419,7 @@ impl Found {
         }
     }
 
-    /// Whether edges are so nearly parallel that what they may add to the best axis is nothing.
+    /// Whether edges are so nearly parallel that the most their axis could add to the best one is negligible.
     fn are_parallel(&mut self, cross: &Cross, search: &Search) -> bool {
         let by_angle = search.precision.of_parallel_edges(cross.squared_sine());
         let is_nothing = by_angle <= search.even(self.stake());
@@ -421,15 +429,15 @@ impl Found {
         is_nothing
     }
 
-    /// Whether an axis of edges beats the one so far: by what it shows, or, where that is the same up to rounding,
-    /// as it is for all edges of the same direction, because its edges are those that touch.
+    /// Whether an edge pair's axis beats the best one so far: by its separation or, where that is equal up to rounding,
+    /// as it is for all edges of the same directions, because its edges are those that touch.
     fn is_better(&self, axis: &Axis, aside: f64, rounding: f64) -> bool {
         let more = axis.separation - self.axes.edges.separation;
         more > rounding || more >= -rounding && aside < self.aside - rounding
     }
 
-    /// Whether the axis of two edges is not the best, or even with the best face, by the vertices seen so far: all
-    /// that they show is more than the truth.
+    /// Whether the vertices seen so far show that the axis of two edges is not the best, or no more than even with the
+    /// best face: they never show less than the true separation.
     fn shows_too_little(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (_, point) in &self.seen[1] {
@@ -446,7 +454,7 @@ impl Found {
         self.floor = self.floor.max(axis.separation);
     }
 
-    /// Keeps a vertex of A (0) or of B (1); of many, the latest.
+    /// Remembers a vertex of A (0) or of B (1), in place of the oldest one once the list is full.
     fn see(&mut self, which: usize, solid: &Solid, vertex: usize) {
         let seen = &mut self.seen[which];
         if seen.iter().all(|&(known, _)| known != vertex) {
@@ -458,8 +466,8 @@ impl Found {
     }
 }
 
-/// Whether solids have many pairs of edges, and either is a prism or much like one: a quarter of its edges and more are
-/// the rim of one face. Spheres tell little of those.
+/// Whether the solids have many pairs of edges and either is a prism or much like one: at least a quarter of its edges
+/// are the rim of one face. Spheres rule out few edges of those.
 fn are_rimmed(a: &Solid, b: &Solid) -> bool {
     let is_rimmed = |solid: &Solid| {
         let (edges, faces) = (solid.arcs().len(), solid.face_count());
@@ -483,10 +491,10 @@ pub(super) fn face_axis_b(a: &Solid, b: &Solid, face: usize) -> Axis {
     Axis { separation, normal: -outward, of: AxisOf::FaceB(face) }
 }
 
-/// How far an axis' edges lie aside from where both shapes reach furthest along it, in metres along it.
+/// How far an axis' edges lie off the supporting planes of both shapes, in metres along the axis.
 ///
-/// An arc that was kept because it was a close call need not: its axis is a true axis, but not that of its edges, and
-/// some other pair of the same direction is the one that touches.
+/// Arcs that were kept as a close call need not cross: then the axis is a valid one, but not that of a facet made by
+/// these edges, and some other pair of the same directions is the one that touches.
 fn aside(a: &Solid, b: &Solid, axis: &Axis) -> f64 {
     let AxisOf::Edges(edge_a, edge_b) = axis.of else { return 0.0 };
     let between = b.edge(edge_b).0 - a.edge(edge_a).0;

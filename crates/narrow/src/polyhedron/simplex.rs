@@ -1,23 +1,23 @@
 //! The point of a simplex that is nearest to the origin.
 //!
-//! The corner that came last is part of what is nearest, or the step brought nothing: of the fifteen faces of a
-//! tetrahedron, itself among them, the eight that hold it can be nearest.
+//! The corner that came last is part of the nearest feature, or the step brought nothing: of the fifteen features of a
+//! tetrahedron (corners, edges, faces and itself), only the eight that contain it can be nearest.
 //!
 //! ```text
 //! four corners    the origin is on the inner side of all faces: inside
-//!                 a triangle with the origin on its outer side and over its inside: that
-//! three corners   the triangle, if the origin is over its inside
-//! else            of the edges from the last corner the one that leads the furthest towards the origin
+//!                 a triangle with the origin on its outer side and over its interior: that triangle
+//! three corners   the triangle, if the origin is over its interior
+//! else            of the edges from the last corner, the one that leads the furthest towards the origin
 //! else            that corner
 //! ```
-//! So the first that fits is taken ([`nearest_to_origin`]). Where the corners are flat but for rounding, that may be
+//! The first that fits is taken ([`nearest_to_origin`]). Where the corners are degenerate up to rounding, that may be
 //! the wrong one, and the iteration comes no nearer: then all that fit are compared ([`nearest_of_all`]), and no branch
-//! leads astray.
+//! can choose wrongly.
 
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// Up to four corners, the last of which came last.
+/// Up to four corners, the newest last.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Corners {
     pub(crate) places: [DVec3; 4],
@@ -28,13 +28,13 @@ pub(crate) struct Corners {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     pub(crate) point: DVec3,
-    /// As many as count, ascending.
+    /// The first `count` of these, ascending.
     pub(crate) picks: [usize; 3],
     pub(crate) weights: [f64; 3],
     pub(crate) count: usize,
 }
 
-/// A face that holds the last corner, by others of its corners and their weights.
+/// A feature that contains the last corner, by its other corners and their weights, and how many those are.
 type Found = ([(usize, f64); 2], usize);
 
 impl Corners {
@@ -50,7 +50,7 @@ impl Corners {
         self.places[corner] - self.last().1
     }
 
-    /// The last corner by itself, with others so much of the way to them.
+    /// The point of a feature: the last corner plus the weighted vectors to the others.
     #[inline(always)]
     fn weigh(&self, ([(i, of_i), (j, of_j)], count): Found) -> Nearest {
         let (new, last) = self.last();
@@ -67,8 +67,8 @@ impl Corners {
         }
     }
 
-    /// How much of the edge to another corner leads to its point nearest to the origin, if that lies within it, and by
-    /// how much less far that is than the last corner, squared.
+    /// The parameter of the point nearest to the origin on the edge to another corner, if that lies within the edge;
+    /// and by how much its squared distance is less than the last corner's.
     #[inline(always)]
     fn edge(&self, corner: usize) -> Option<(f64, f64)> {
         let along = self.along(corner);
@@ -90,7 +90,7 @@ impl Corners {
         best.1
     }
 
-    /// The triangle with two other corners and a normal of it, if the origin is over its inside.
+    /// The triangle with two other corners, given a normal of it, if the origin is over its interior.
     #[inline(always)]
     fn triangle(&self, [i, j]: [usize; 2], normal: DVec3) -> Option<Found> {
         let last = self.last().1;
@@ -101,8 +101,8 @@ impl Corners {
         is_over.then(|| ([(i, of_i / area), (j, of_j / area)], 2))
     }
 
-    /// The nearest point of an edge or a triangle, by its corners in ascending order, if the origin is over its inside;
-    /// measured from the corner that is nearest.
+    /// The nearest point of an edge or a triangle, given its corners in ascending order, if the origin is over its
+    /// interior; computed relative to the corner that is nearest.
     fn over_face(&self, face: &[usize]) -> Option<Nearest> {
         let length = |&corner: &usize| self.places[corner].length_squared();
         let mut order: ArrayVec<usize, 3> = face.iter().copied().collect();
@@ -125,8 +125,8 @@ impl Corners {
     }
 }
 
-/// The nearest point among the faces of one to four corners that the last corner is part of, or nothing where a
-/// tetrahedron holds the origin.
+/// The nearest point among the features of one to four corners that contain the last corner; `None` where a tetrahedron
+/// holds the origin.
 #[inline]
 pub(crate) fn nearest_to_origin(corners: &Corners) -> Option<Nearest> {
     let found = match corners.count {
@@ -141,13 +141,13 @@ pub(crate) fn nearest_to_origin(corners: &Corners) -> Option<Nearest> {
     Some(corners.weigh(found))
 }
 
-/// Of a tetrahedron; nothing where the origin is in it.
+/// [`nearest_to_origin`] of a tetrahedron; `None` where the origin is in it.
 #[inline(always)]
 fn of_four(corners: &Corners) -> Option<Found> {
     const SIDES: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
     let normals = SIDES.map(|[i, j]| corners.along(i).cross(corners.along(j)));
     let whole = normals[0].dot(corners.along(2));
-    // The origin's share of the corner opposite each side, times the square of the whole.
+    // The origin's barycentric coordinate for the corner opposite each side, times the square of the whole volume.
     let share = |side: usize, whole: f64| -normals[side].dot(corners.last().1) * whole;
     let shares = [share(0, whole), share(1, whole), share(2, -whole)];
     let is_inside = shares.iter().all(|&share| share > 0.0) && shares.iter().sum::<f64>() < whole * whole;
@@ -164,11 +164,11 @@ fn of_four(corners: &Corners) -> Option<Found> {
     Some(corners.best_edge())
 }
 
-/// The same with squared distances compared: what is nearest whatever rounding makes of sides.
+/// [`nearest_to_origin`] by comparing squared distances: the nearest one, whatever rounding does to sides.
 ///
-/// Each face is measured from its corner nearest to the origin: what a last corner far away rounds may be more than a
-/// step that it brings. Of plates of a millionth of their width, edge to edge, the iteration stopped 1.35e-6 m from the
-/// origin that they touch.
+/// Each feature is computed relative to its corner nearest to the origin: the rounding of a last corner that is far
+/// away may exceed the progress of a step. For plates of a millionth of their width, edge to edge, the iteration
+/// stopped 1.35e-6 m from the origin that they touch.
 #[cold]
 pub(crate) fn nearest_of_all(corners: &Corners) -> Nearest {
     let last = corners.last().0;
@@ -200,11 +200,12 @@ mod tests {
         corners
     }
 
-    /// Of any face, by another method: the least squares of its weights, and nothing where one is not positive.
+    /// The distance of one face's interior by another method: least squares of its weights; `None` where a weight is
+    /// negative.
     fn nearest_of_face(places: &[DVec3]) -> Option<f64> {
         let first = places[0];
         let edges: Vec<DVec3> = places[1..].iter().map(|&place| place - first).collect();
-        // Gram-Schmidt, and back.
+        // Gram-Schmidt, then back substitution.
         let mut rest = -first;
         let (mut axes, mut shares) = (Vec::<DVec3>::new(), Vec::new());
         for &edge in &edges {
@@ -224,7 +225,7 @@ mod tests {
         is_inside.then(|| rest.length())
     }
 
-    /// Of all faces.
+    /// The least over all faces.
     fn distance(places: &[DVec3]) -> f64 {
         let faces = (1_usize..1 << places.len()).map(|face| {
             (0..places.len()).filter(|i| face >> i & 1 == 1).map(|i| places[i]).collect::<Vec<_>>()
@@ -262,7 +263,7 @@ mod tests {
         let (mut kinds, mut inside, mut beside) = ([0; 5], 0, 0);
         for round in 0..40_000 {
             let count = 1 + round % 4;
-            // Flat ones among them, and some around the origin.
+            // Some of them flat, some around the origin.
             let flat = DVec3::new(1.0, 1.0, [1.0, 1e-2][round / 4 % 2]);
             let away = DVec3::new(0.3, 0.2, 0.4) * (round / 8 % 3) as f64;
             let places: Vec<DVec3> = (0..count).map(|_| numbers.vector() * flat + away).collect();
@@ -276,7 +277,7 @@ mod tests {
             let weighed = (0..nearest.count).map(|i| places[nearest.picks[i]] * nearest.weights[i]);
             let sum: f64 = nearest.weights[..nearest.count].iter().sum();
             assert!((weighed.sum::<DVec3>() - nearest.point).length() < 1e-12 && (sum - 1.0).abs() < 1e-12);
-            // Where the last corner brought nothing, nobody asks.
+            // Where the last corner brought nothing, the answer is not used.
             if count > 1 && truth >= without * (1.0 - 1e-9) {
                 beside += 1;
                 continue;

@@ -1,8 +1,8 @@
 //! Points and segments among themselves: what spheres and capsules are without their radius.
 //!
 //! ```text
-//! the closest points of two segments: by their two equations, clamped, where a projection on the way between them proves it
-//! else the feet of their common perpendicular, if both lie within, or the least of the four ends against the other segment
+//! the closest points of two segments: by their two equations, clamped, if a projection on the axis between proves it
+//! else the feet of the common perpendicular, if both lie within, or the nearest of the four ends to the other segment
 //! ```
 //! A point is a segment of no length. Closed form in place of an iteration, and no face to test: such shapes have no
 //! inside, so that their separation is never below zero.
@@ -18,15 +18,15 @@ use asunder_geometry::{Basis3, Shape3};
 /// A point or a segment, in the frame of the pair, and how far the shape reaches beyond it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slender {
-    /// Of a point, both are one.
+    /// Both the same for a point.
     pub(super) ends: [DVec3; 2],
     pub(super) is_point: bool,
     pub(crate) radius: f64,
 }
 
 impl Slender {
-    /// Of a shape with its axes and its origin there, if it is one: to make a [`Solid`] of it takes as long as to find
-    /// closest points.
+    /// From a shape with these axes and this origin, if it is one: to build a [`Solid`] of it takes as long as to find
+    /// the closest points.
     #[inline]
     pub(crate) fn of(shape: &Shape3, (basis, origin): (&Basis3, DVec3)) -> Option<Self> {
         let [from, to] = match shape {
@@ -46,7 +46,7 @@ impl Slender {
         Some(Self { ends, is_point: from == to, radius: shape.radius().into() })
     }
 
-    /// Of a core that has neither faces nor more than two vertices.
+    /// From a core that has neither faces nor more than two vertices.
     pub(crate) fn of_solid(core: &Solid) -> Self {
         let last = core.vertices.len() - 1;
         Self { ends: [core.point(0), core.point(last)], is_point: last == 0, radius: core.radius }
@@ -57,13 +57,13 @@ impl Slender {
         self.ends[1] - self.ends[0]
     }
 
-    /// Where on it, 0 to 1, from its first end to its last.
+    /// The point at a place on it, from 0 at its first end to 1 at its last.
     #[inline]
     pub(crate) fn at(&self, place: f64) -> DVec3 {
         self.ends[0] + self.along() * place
     }
 
-    /// The place that is nearest to a point.
+    /// The place on it that is nearest to a point.
     #[inline]
     pub(crate) fn place_of(&self, point: DVec3) -> f64 {
         place_on(self.ends[0], self.along(), point)
@@ -93,17 +93,19 @@ pub(crate) struct Nearest {
     places: [f64; 2],
 }
 
-/// The closest points. Where they are closer than `rounding`, the way from one to the other is no axis.
+/// The closest points. Where they are closer than `rounding`, the vector from one to the other gives no axis.
 #[inline]
 pub(crate) fn nearest(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     nearest_at_once(a, b, rounding).unwrap_or_else(|| nearest_of_all(a, b, rounding))
 }
 
 /// The closest points of two segments by one solution of their equations, clamped (Ericson, "Real-Time Collision
-/// Detection", 2005, 5.1.9); nothing of points, of segments that are all but parallel, and where a projection does not
-/// prove it to a sixteenth of the rounding: most pairs of capsules need neither the four ends nor another axis. Without
-/// it their distance takes 208 ns in place of 165, and their manifold 265 in place of 227 (Intel Xeon, Ice Lake, 2
-/// virtual cores, 2026-11-27).
+/// Detection", 2005, 5.1.9).
+///
+/// `None` for points, for segments that are nearly parallel, and where a projection does not prove the answer to a
+/// sixteenth of the rounding. Most pairs of capsules need neither the four ends nor another axis: without this function
+/// their distance takes 208 ns in place of 165, and their manifold 265 in place of 227 (Intel Xeon, Ice Lake, 2 virtual
+/// cores, 2026-11-27).
 #[inline]
 fn nearest_at_once(a: &Slender, b: &Slender, rounding: f64) -> Option<Nearest> {
     if a.is_point || b.is_point {
@@ -114,7 +116,7 @@ fn nearest_at_once(a: &Slender, b: &Slender, rounding: f64) -> Option<Nearest> {
     let (aa, bb, ab) = (along_a.length_squared(), along_b.length_squared(), along_a.dot(along_b));
     let (on_a, on_b) = (along_a.dot(between), along_b.dot(between));
     let determinant = aa * bb - ab * ab;
-    // What is not a number passes here, and is not proved below.
+    // NaN passes here, and is not proved below.
     if determinant <= 1e-4 * aa * bb {
         return None;
     }
@@ -135,7 +137,7 @@ fn nearest_at_once(a: &Slender, b: &Slender, rounding: f64) -> Option<Nearest> {
     is_proved.then_some(Nearest { distance, at_least, normal, on_a, on_b, places: [s, clamped] })
 }
 
-/// The closest points of all that may be.
+/// The closest points by comparing all candidates.
 #[inline(never)]
 fn nearest_of_all(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     let ([a0, a1], [b0, b1]) = (a.ends, b.ends);
@@ -179,16 +181,16 @@ fn nearest_of_all(a: &Slender, b: &Slender, rounding: f64) -> Nearest {
     let shown = |normal: DVec3| (normal, bound(normal));
     let (mut normal, mut at_least) = better(shown(straight), shown(clean));
     if distance - at_least > rounding {
-        // Long ones that all but touch: the way from one to the other is mostly rounding.
+        // Long segments that all but touch: the vector from one point to the other is mostly rounding.
         (normal, at_least) = better((normal, at_least), shown(across(along_a, along_b, on_b - on_a)));
     }
     Nearest { distance, at_least, normal, on_a, on_b, places }
 }
 
-/// The unit axis between closest points, square to each segment that has its point in its inside.
+/// The unit axis between closest points, made perpendicular to each segment that has its point in its interior.
 ///
-/// Between points that all but coincide the axis from one to the other is rounding; what it is square to tells it
-/// again.
+/// Between points that all but coincide, the vector from one to the other is mostly rounding; being perpendicular to
+/// the segments restores the axis.
 fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec3> {
     let is_inside = places.map(|place| place > 0.0 && place < 1.0);
     let cross = along[0].cross(along[1]);
@@ -201,10 +203,11 @@ fn square_to(between: DVec3, along: [DVec3; 2], places: [f64; 2]) -> Option<DVec
     axis.try_normalize()
 }
 
-/// How they touch: where they are closest, or on both ends of the stretch along which two segments lie side by side.
+/// The contact points: where the two are closest, or both ends of the stretch along which two segments lie side by
+/// side.
 ///
-/// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points,
-/// up to `preference`: segments that cross at a small angle touch in one point.
+/// Points are at most `within` apart. The stretch is taken only if one end of it is as close as the closest points, up
+/// to `preference`: segments that cross at a small angle touch in one point.
 pub(crate) fn touch([a, b]: [&Slender; 2], nearest: &Nearest, within: f64, preference: f64) -> Touch {
     let normal = nearest.normal;
     let least = nearest.distance - a.radius - b.radius + preference;
@@ -225,22 +228,24 @@ pub(crate) fn touch([a, b]: [&Slender; 2], nearest: &Nearest, within: f64, prefe
     Touch { normal, points, of: None }
 }
 
-/// The place of the foot of a point on a segment, 0 to 1; 0 on one of no length.
+/// The place of a point's projection on a segment, clamped to 0 to 1; 0 on a segment of no length.
 fn place_on(from: DVec3, along: DVec3, point: DVec3) -> f64 {
     let place = (point - from).dot(along) / along.length_squared();
     if place.is_nan() { 0.0 } else { place.clamp(0.0, 1.0) }
 }
 
-/// A unit axis across both directions, as far as there is one, towards `between` where that leaves a choice.
+/// A unit axis perpendicular to both directions, as far as there is one, on the side of `between` where that leaves a
+/// choice.
 pub(crate) fn across(along_a: DVec3, along_b: DVec3, between: DVec3) -> DVec3 {
     let cross = along_a.cross(along_b);
     let longer = if along_a.length_squared() >= along_b.length_squared() { along_a } else { along_b };
     let square = |v: DVec3| v.length_squared();
-    // Not parallel: only their common perpendicular.
+    // Not parallel: only their common perpendicular will do.
     let axis = if square(cross) > 1e-16 * square(along_a) * square(along_b) && square(cross) > 0.0 {
         cross
     } else {
-        // Any across the longer one will do; of the axes, the one furthest from its direction.
+        // Anything perpendicular to the longer one will do: made with the coordinate axis that is furthest from its
+        // direction.
         let size = longer.abs();
         let other = if size.x <= size.y && size.x <= size.z {
             DVec3::X

@@ -1,4 +1,4 @@
-//! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
+//! A shape as the kernels see it: its stored vertices, and their placement in the frame of the pair.
 
 use super::distance::Polytope;
 use super::octets::{Along, IN_A_WORD, lanes_from};
@@ -10,8 +10,8 @@ use asunder_geometry::{Basis3, Core3, EdgeArc, EdgeOctet, FaceOctet, Topology, V
 /// A core in the frame of a pair: A's axes, about A's position. Most often a polyhedron; a triangle or flat hull has
 /// two faces back to back, a segment or point none.
 ///
-/// Vertices are not transformed: a direction is turned into local axes instead, once a projection. That leaves A's
-/// coordinates exact and B's with one rounding step less.
+/// Vertices are not transformed: a direction is rotated into local axes instead, once for each projection. That leaves
+/// A's coordinates exact and B's with one rounding step less.
 pub(crate) struct Solid<'a> {
     core: &'a Core3<'a>,
     pub(crate) vertices: &'a [Vec3],
@@ -19,7 +19,7 @@ pub(crate) struct Solid<'a> {
     pub(crate) topology: &'a Topology,
     normals: &'a [DVec3],
     pub(super) basis: Basis3,
-    /// Whether the frame of the pair is this solid's own, so that nothing needs turning.
+    /// Whether the frame of the pair is this solid's own, so that nothing needs to be rotated.
     is_home: bool,
     is_cuboid: bool,
     position: DVec3,
@@ -27,8 +27,8 @@ pub(crate) struct Solid<'a> {
     pub(super) extent: f32,
     /// The centre that radii are about, in the shape's own axes.
     center: DVec3,
-    /// Radius of a sphere about the centre that lies inside the core, in metres; below zero where the centre does not,
-    /// by no less than its distance.
+    /// Radius of a sphere about the centre that lies inside the core, in metres; negative where the centre is outside,
+    /// by at least its distance.
     pub(super) inner_radius: f64,
     /// Half of a segment about the centre on which a ball of nearly that radius stays inside, in the shape's own axes.
     inner_arm: Vec3,
@@ -36,10 +36,10 @@ pub(crate) struct Solid<'a> {
     pub(crate) radius: f64,
 }
 
-/// So few vertices are looked at one by one.
+/// Up to this many vertices are projected one by one.
 const FEW: usize = 4;
 
-/// Where a projection is greatest, and how great.
+/// A support vertex, and how far it reaches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Support {
     pub(crate) vertex: usize,
@@ -120,9 +120,9 @@ impl<'a> Solid<'a> {
         self.forth(self.normals[face])
     }
 
-    /// The direction in which the shape's surface lies beyond a face of its core; beyond a segment, the one across it
-    /// that is nearest to `towards`, which is of unit length. Nothing for a segment that all but points there, nor
-    /// for a point: nothing of them but the end looks that way.
+    /// The direction in which the shape's surface lies beyond a face of its core; for a segment, the perpendicular
+    /// direction nearest to `towards`, which is of unit length. `None` for a segment that nearly points along
+    /// `towards`, and for a point: of those only an end faces that way.
     pub(crate) fn outwards(&self, face: usize, towards: DVec3) -> Option<DVec3> {
         if !self.is_slender() {
             return Some(self.normal(face));
@@ -130,22 +130,22 @@ impl<'a> Solid<'a> {
         across_segment(self.point(self.vertices.len() - 1) - self.point(0), towards)
     }
 
-    /// Where an edge starts and where it leads, from its lower half-edge.
+    /// The start and the end of an edge, from its lower half-edge.
     #[inline]
     pub(crate) fn edge(&self, half_edge: usize) -> (DVec3, DVec3) {
         let (from, to) = self.topology.ends(half_edge);
         (self.point(from), self.point(to))
     }
 
-    /// An edge's direction, not normalised. Turning the difference loses less than subtracting the turned.
+    /// An edge's direction, not normalised. Rotating the difference loses less than subtracting rotated points.
     #[inline]
     pub(crate) fn edge_direction(&self, half_edge: usize) -> DVec3 {
         let (from, to) = self.topology.ends(half_edge);
         self.forth(self.vertices[to].as_dvec3() - self.vertices[from].as_dvec3())
     }
 
-    /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards
-    /// as seen from there. Zero for a segment, which looks everywhere.
+    /// A direction, of any length, that lies between the normals beside an edge, in the frame of the pair: outwards as
+    /// seen from there. Zero for a segment, whose arc is its whole great circle.
     #[inline]
     pub(crate) fn out_of_edge(&self, half_edge: usize) -> DVec3 {
         let edges = self.topology.half_edges();
@@ -153,7 +153,7 @@ impl<'a> Solid<'a> {
         let twin = edges[half_edge].twin as usize;
         let (Some(&left), Some(&right)) = (normal(half_edge), normal(twin)) else { return DVec3::ZERO };
         if left.dot(right) < 0.0 {
-            // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
+            // For faces that are nearly back to back the sum is mostly rounding; the difference is not.
             return self.edge_direction(half_edge).cross(self.forth(left - right));
         }
         self.forth(left + right)
@@ -167,9 +167,8 @@ impl<'a> Solid<'a> {
 
     /// The vertex furthest along a direction of unit length; ties go to the lowest index. Cost: linear in the vertices.
     ///
-    /// f32 lanes leave out what is lower by more than they can be off; f64 chooses among the rest, so that the
-    /// answer is that of `support_one_by_one` to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4,
-    /// 2026-11-21).
+    /// f32 lanes discard what is lower by more than their error; f64 chooses among the rest, so that the answer is that
+    /// of `support_one_by_one` to the last bit. 32 vertices: 35 ns one by one, 19 here (AMD EPYC, Zen 4, 2026-11-21).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3) -> Support {
         let mut best = self.local_support(self.back(direction));
@@ -195,7 +194,7 @@ impl<'a> Solid<'a> {
         best
     }
 
-    /// Of a cuboid, whose corners have the signs of the direction; of a triangle or less, one by one.
+    /// [`Solid::local_support`] of a cuboid, by the signs of the direction; of a few vertices, one by one.
     #[inline]
     fn support_of_few(&self, direction: DVec3) -> Support {
         if self.is_cuboid {
@@ -213,8 +212,7 @@ impl<'a> Solid<'a> {
         best
     }
 
-    /// The vertex of [`Solid::local_support`] without what it reaches: where no other is as far in f32, no f64 is
-    /// needed.
+    /// The vertex of [`Solid::local_support`] without its reach: where no other is as far in f32, no f64 is needed.
     #[inline]
     fn local_furthest(&self, direction: DVec3) -> usize {
         if self.is_cuboid {
@@ -230,32 +228,33 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// The same of more than eight vertices. Out of line: those of eight took 1.15 times as long with it.
+    /// [`Solid::local_furthest`] of more than eight vertices. Not inlined: with it, solids of eight took 1.15 times as
+    /// long.
     #[inline(never)]
     fn furthest_of_many(&self, direction: DVec3) -> usize {
         let only = Along::new(direction).only(self.vertex_octets, self.extent);
         only.unwrap_or_else(|| self.local_support(direction).vertex)
     }
 
-    /// Visits the vertices whose lanes come to `least`, ascending.
+    /// Visits the vertices whose lanes come to `least`, in ascending order.
     #[inline(always)]
     pub(super) fn for_vertices_from(&self, along: &Along, least: f32, mut visit: impl FnMut(usize, Vec3)) {
         for (chunk, octets) in self.vertex_octets.chunks(IN_A_WORD).enumerate() {
             let mut near = along.those_from(octets, least);
-            // Most often one. Which it is nobody can guess: no branch asks.
+            // Most often one bit. Which one is unpredictable, so no branch depends on it.
             while near != 0 {
                 let vertex = 8 * IN_A_WORD * chunk + near.trailing_zeros() as usize;
                 near &= near - 1;
-                // Places past the last vertex are not vertices.
+                // Lanes past the last vertex are padding.
                 let Some(&point) = self.vertices.get(vertex) else { break };
                 visit(vertex, point);
             }
         }
     }
 
-    /// A vertex that is the furthest along a direction of any length up to a rounding of f32; a bound on how far
-    /// any of them reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and
-    /// less where many are equally far.
+    /// A support vertex along a direction of any length, up to the rounding of f32; with an upper bound on how far any
+    /// vertex reaches, and by how much that may exceed the truth. Half the cost of [`Solid::support`], and less where
+    /// many are equally far.
     #[inline]
     pub(crate) fn rough_support(&self, direction: DVec3) -> (Support, f64) {
         let local = self.back(direction);
@@ -268,22 +267,23 @@ impl<'a> Solid<'a> {
         let (best, vertex) = along.furthest(self.vertex_octets);
         let doubt = along.doubt(self.extent);
         let reach = f64::from(best + doubt) + direction.dot(self.position);
-        // What fills up the last eight is the first vertex.
+        // The last octet is padded with the first vertex.
         let vertex = if vertex < self.vertices.len() { vertex } else { 0 };
         (Support { vertex, reach }, 2.0 * f64::from(doubt))
     }
 
-    /// What a vertex' lane comes to at least if the vertex may be the furthest, in the shape's own axes.
+    /// What a vertex' lane must at least come to if the vertex may be the furthest. The direction is in the shape's own
+    /// axes.
     #[inline(always)]
     pub(super) fn least_lane(&self, along: &Along) -> f32 {
         along.highest(self.vertex_octets) - along.doubt(self.extent)
     }
 
-    /// Whether a face may look along a unit direction up to [`ALIGNED_FACES`]; errs towards yes, never towards no.
-    /// Cost: linear in the faces, eight at a time.
+    /// Whether a face's normal may lie along a unit direction, up to [`ALIGNED_FACES`]; errs towards yes, never towards
+    /// no. Cost: linear in the faces, eight at a time.
     #[inline]
     pub(super) fn may_look_along(&self, direction: DVec3) -> bool {
-        // Less by more than lanes may be off by, and normals.
+        // Less by more than the errors of lanes and normals.
         const LEAST: f32 = ALIGNED_FACES as f32 - 1e-6;
         let along = Along::new(self.back(direction));
         let looks = |faces: &FaceOctet| lanes_from(along.dot([&faces.x, &faces.y, &faces.z]), LEAST) != 0;
@@ -323,7 +323,7 @@ impl<'a> Solid<'a> {
         self.position + self.forth(self.center)
     }
 
-    /// Radius of a sphere about the centre that lies inside the core, in metres; below zero where the centre does not.
+    /// Radius of a sphere about the centre that lies inside the core, in metres; negative where the centre is outside.
     #[inline]
     pub(crate) const fn inner_radius(&self) -> f64 {
         self.inner_radius
@@ -378,7 +378,7 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// [`Solid::outwards`] of a segment, by the way from one end to the other; nothing of a point.
+/// [`Solid::outwards`] of a segment, given the vector from one end to the other; `None` for a point.
 #[inline]
 pub(super) fn across_segment(way: DVec3, towards: DVec3) -> Option<DVec3> {
     let along = way.try_normalize()?;

@@ -1,4 +1,4 @@
-//! Closest points, where nothing else is asked of a pair.
+//! Closest points, for queries that need nothing else.
 
 use super::Convex;
 use crate::polyhedron::distance::{Until, distance};
@@ -7,8 +7,8 @@ use crate::polyhedron::portal::{self, Found};
 use crate::precision::at_least;
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] would say of the closest points of two solids, by the shortest way; unclear for pairs
-    /// that are not both solids, and for those that all but touch.
+    /// The closest points of two solids as [`Convex::probe`] would find them, by the fastest path; unclear for pairs
+    /// that are not both solids, and for those that nearly touch.
     pub(crate) fn gap(&self, limit: f64) -> Gap {
         let radii = [self.shape_a.radius(), self.shape_b.radius()];
         if let Some(cuboids) = self.cuboids() {
@@ -19,7 +19,7 @@ impl Convex<'_> {
         };
         let beyond = limit + self.radii + self.precision.projection();
         self.with_solids(|a, b| {
-            // Nobody need search for a common point of what is apart by far.
+            // What is far apart needs no search for a common point.
             let found = match self.direction_apart() {
                 Some(direction) => Found::Nothing(direction),
                 None => portal::search(a, b, beyond, &self.precision),

@@ -1,9 +1,9 @@
-//! Whether last frame's direction parts two shapes still, before anything is made of them.
+//! Whether last frame's direction still separates two shapes, before any solids are built from them.
 //!
-//! Of the pairs of hulls in the air that a broad phase hands over, every third is apart along the direction that it was
-//! apart along in the frame before. To find that out takes two furthest vertices. Axes, faces and edges of both shapes,
-//! put together for the kernels, took three times as long as those. Here f32 lanes bound what they reach; which vertex
-//! it is nobody asks.
+//! Of the airborne pairs of hulls that a broad phase hands over, a third are still separated along the direction that
+//! separated them in the frame before. To find that out takes two support points. Putting together axes, faces and
+//! edges of both shapes for the kernels took three times as long as those. Here f32 lanes bound the projections; the
+//! vertices are not needed.
 
 use super::{Asked, Convex, Probe};
 use crate::polyhedron::octets::bound_of_reach;
@@ -11,8 +11,8 @@ use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] says of hulls and cuboids that the hinted direction parts by more than the limit; nothing
-    /// of others. Cost: linear in the vertices.
+    /// The answer of [`Convex::probe`] for hulls and cuboids that the hinted direction separates by more than the
+    /// limit; `None` for all others. Cost: linear in the vertices.
     #[inline]
     pub(super) fn parted_as_before(&self, asked: Asked) -> Option<Probe> {
         let direction = asked.hint.direction()?;
@@ -24,7 +24,8 @@ impl Convex<'_> {
     }
 }
 
-/// No less than how far the core of a hull or cuboid reaches along a direction in its own axes, rounding of f64 apart.
+/// An upper bound on how far the core of a hull or cuboid reaches along a direction in its own axes, apart from the
+/// rounding of f64.
 #[inline]
 fn most_of(shape: &Shape3, direction: DVec3) -> Option<f64> {
     match shape {
@@ -93,7 +94,7 @@ mod tests {
                     parted += 1;
                     assert!(at_least > limit * (1.0 - 1e-6), "case {case}: {at_least} of {limit}");
                     assert!(at_least <= f64::from(truth.separation) + f64::from(truth.error), "case {case}");
-                    // The kernels' own word is no further off than lanes of f32 are.
+                    // The kernels' bound differs from it by no more than the error of f32 lanes.
                     let theirs =
                         told(pair.with_solids(|a, b| pair.probe_solids(a, b, asked))).expect("beyond, too");
                     assert!(

@@ -1,17 +1,17 @@
-//! Solids: which search comes first, the decision, and the number that agrees with it.
+//! Solids: the order of the searches, the decision, and the number that agrees with it.
 //!
 //! ```text
-//! contact points   what last frame's hint tells of a gap, or will tell in the next: the distance            (sat::across)
-//! hull or cuboid   whether last frame's direction parts it from another still, by bounds in f32           (parted)
-//! two cuboids      all fifteen axes; in a gap, or where those cannot tell, the distance
-//! anything else    last frame's axis, or one beside it; of those that meet for the first time, a face's  (sat::walk)
-//!                  a search for a direction that parts them, or for a common point                     (portal)
-//!                  the distance, if there may be one within the limit                                  (distance)
-//!                  the best axis, in overlap, and where contact points are wanted                      (sat)
+//! contact points   a gap found by last frame's hint, or by this frame's in the next: the distance       (sat::across)
+//! hull or cuboid   whether last frame's direction still separates it from another, by bounds in f32     (parted)
+//! two cuboids      all fifteen axes; in a gap, or where those cannot decide, the distance
+//! anything else    last frame's axis, or one near it; for pairs that meet for the first time, a face's  (sat::walk)
+//!                  a search for a separating direction, or for a common point                           (portal)
+//!                  the distance, if there may be one within the limit                                   (distance)
+//!                  the best axis, in overlap, and where contact points are wanted                       (sat)
 //! ```
-//! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what tells
-//! them apart is asked first, and the axes, of which there are thousands, only when the depth is wanted. In a gap
-//! no contact is built on the axes of edges, and only those of faces are asked for.
+//! Most pairs that a broad phase hands over are apart, and most others overlap by more than rounding: what
+//! distinguishes them comes first, and the axes, of which there are thousands, only when the depth is wanted. In a gap
+//! no contact is built on the axes of edges, and only those of faces are evaluated.
 
 use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
 use crate::answer::{Tier, Verdict};
@@ -28,10 +28,10 @@ use crate::polyhedron::solid::Solid;
 use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec3;
 
-/// How two cores lie, as far as the distance iteration came.
+/// How two cores lie, as far as the distance iteration has found out.
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
 enum Cores {
-    /// Overlapping, or apart by at most so many metres.
+    /// Overlapping, or apart by at most this many metres.
     Within(f64),
     /// Two bounds on their distance, with witness points.
     Between(Witness),
@@ -43,7 +43,7 @@ const DOUBLE_OVERLAP: Verdict = Verdict { overlapping: true, tier: Tier::Double 
 impl Convex<'_> {
     pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
         let beyond = asked.limit + self.radii + self.precision.projection();
-        // Of hulls and cuboids what bounds in f32 left open; of all others, first of all.
+        // For hulls and cuboids, bounds in f32 left this open (`parted`); for all others it is the first test.
         if let Some(direction) = asked.hint.direction() {
             let separation = -b.support(-direction).reach - a.support(direction).reach;
             if separation > beyond {
@@ -61,8 +61,8 @@ impl Convex<'_> {
         {
             return self.told_gap((a, b), axes, witness, asked.hint);
         }
-        // Closest points are the distance's, and no axis tells of them. Here are those that all but touch: others went
-        // the shortest way (`apart`).
+        // Closest points come from the distance, not from axes. Only pairs that nearly touch come here for them: others
+        // took the fastest path (`apart`).
         if asked.wanted != Wanted::Closest
             && let Some(cuboids) = self.cuboids()
         {
@@ -107,7 +107,7 @@ impl Convex<'_> {
                     let hint = Hint::towards(witness.normal);
                     return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
                 }
-                // The axes say which faces look at each other.
+                // The axes show which faces lie opposite each other.
                 let axes = self.face_axes(a, b, witness.at_least);
                 self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), asked.wanted)
             }
@@ -119,9 +119,9 @@ impl Convex<'_> {
         }
     }
 
-    /// Where to begin where no hint tells. A walk from there, most often, settles what meets for the first time,
-    /// without a search: hulls face on face 0.72 to 0.8 of the time, what a broad phase hands over 0.94 (AMD EPYC, Zen
-    /// 4, 2026-11-26). Of what overlaps deeply it seldom does, and there the search takes nothing.
+    /// The axis to start from where there is no hint. A walk from there most often decides pairs that meet for the
+    /// first time, without a search: hulls face on face 0.72 to 0.8 of the time, what a broad phase hands over 0.94
+    /// (AMD EPYC, Zen 4, 2026-11-26). For deeply overlapping pairs it seldom does, and there the search costs nothing.
     fn first_axis(&self, (a, b): (&Solid, &Solid), wanted: Wanted) -> Option<Hinted> {
         let is_deep = || {
             let apart = (a.center() - b.center()).length();
@@ -133,8 +133,8 @@ impl Convex<'_> {
         first_axis(a, b, &self.search(f64::NEG_INFINITY))
     }
 
-    /// Solids that overlap for certain, of which the axis that was begun with, last frame's or a face's, was not proved
-    /// to be the best. Most often it nearly is, and what shows less is culled.
+    /// The answer for solids that certainly overlap, where the axis that was started from, last frame's or a face's,
+    /// was not proved to be the best. Most often it nearly is, and what shows less is culled.
     fn overlap_by_axes(&self, (a, b): (&Solid, &Solid), hinted: Option<Hinted>) -> Probe {
         let doubt = 8.0 * self.precision.projection();
         let unproved = hinted.map_or(f64::NEG_INFINITY, |hinted| hinted.axis.separation);
@@ -153,7 +153,7 @@ impl Convex<'_> {
             Outcome::Beyond(axis) => return self.beyond(axis.separation, hint_of(&axis)),
             Outcome::Within(axes) => axes,
         };
-        // Axes of faces that were derived or merged are no proof; those of cuboids are.
+        // Axes of faces that were derived or merged prove nothing; those of cuboids do.
         if axes.best().separation + axes.short() < -2.0 * self.precision.projection() {
             return self.overlap_of_cores(axes, OVERLAPPING, 0.0);
         }
@@ -161,7 +161,7 @@ impl Convex<'_> {
         self.probe_close((a, b), axes, closer, wanted)
     }
 
-    /// Cores that overlap, of which nothing else was asked: they have no closest points.
+    /// The answer for overlapping cores where only closest points were wanted: they have none.
     fn just_overlapping(&self) -> Probe {
         Probe::Near(Near {
             verdict: OVERLAPPING,
@@ -178,7 +178,7 @@ impl Convex<'_> {
         Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
     }
 
-    /// All axes are known, and how the cores lie.
+    /// The answer once all axes are known, and how the cores lie.
     fn probe_close(
         &self,
         (a, b): (&Solid, &Solid),
@@ -187,8 +187,8 @@ impl Convex<'_> {
         wanted: Wanted,
     ) -> Probe {
         match closer {
-            // A search that proved no gap, where all axes show an overlap. Not where there is one that the radii close:
-            // then the axes are those of faces alone.
+            // The search proved no gap, and all axes show an overlap. Not where the radii close a gap between the
+            // cores: then only the axes of faces were evaluated.
             (verdict, Cores::Between(witness))
                 if verdict.overlapping
                     && witness.at_least <= self.precision.projection()
@@ -199,7 +199,8 @@ impl Convex<'_> {
             }
             (verdict, Cores::Between(witness)) => {
                 let hint = self.hint_across((a, b), &axes, &witness, wanted);
-                // What that hint will tell in the next frame is told now: an answer does not depend on its own hint.
+                // The gap that this hint will find in the next frame is reported now: an answer does not depend on its
+                // own hint.
                 if wanted == Wanted::Points {
                     let hinted = Hinted::new((a, b), hint, &self.precision);
                     if let Some((axes, witness)) = self.told_by((a, b), hint, hinted.as_ref()) {
@@ -213,7 +214,7 @@ impl Convex<'_> {
         }
     }
 
-    /// What a hint tells of a gap by itself, and its axis.
+    /// The gap that a hint finds by itself, and its axis.
     fn told_by(
         &self,
         (a, b): (&Solid, &Solid),
@@ -226,17 +227,17 @@ impl Convex<'_> {
         }
     }
 
-    /// A gap that a hint has told, which stays as it is: the next answer is told by the same.
+    /// The answer for a gap that a hint found. The hint is kept: the next answer comes from the same one.
     fn told_gap(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
         match self.conclude_gap(&witness) {
             (verdict, true) => self.gap_of_cores(axes, verdict, witness, hint),
-            // Not reached: a gap of the cores that is told is wider than rounding.
+            // Not reached: a gap between the cores that a hint finds is wider than rounding.
             (verdict, false) => self.overlap_of_cores(self.all_axes(a, b, f64::NEG_INFINITY), verdict, 0.0),
         }
     }
 
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap`
-    /// is the most that the gap can be.
+    /// The answer for shapes whose cores overlap, or have a gap too small for any axis to show: as deep as the best
+    /// axis says. `gap` is the most that the gap can be.
     fn overlap_of_cores(&self, axes: Axes, verdict: Verdict, gap: f64) -> Probe {
         let best = *axes.best();
         let depth = best.separation - self.radii;
@@ -251,15 +252,16 @@ impl Convex<'_> {
         })
     }
 
-    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
+    /// By how much the true separation may exceed that of the best axis, for cores that are apart by at most `gap`.
     ///
-    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
+    /// In overlap the axes tested are all there are. In a gap the best axis may be none of them, and only witness
+    /// points give a bound.
     fn short(&self, axes: &Axes, gap: f64) -> f64 {
         let (best, short) = (axes.best().separation, axes.short());
         if best + short < 0.0 { short } else { short.max(gap - best) }
     }
 
-    /// Shapes with a gap between their cores, which their radii may close.
+    /// The answer for shapes with a gap between their cores, which their radii may close.
     fn gap_of_cores(&self, axes: Axes, verdict: Verdict, witness: Witness, hint: Hint) -> Probe {
         let precision = self.precision;
         let (separation, gap) = precision.of_gap(witness.distance, witness.at_least, self.radii);
@@ -275,8 +277,8 @@ impl Convex<'_> {
         })
     }
 
-    /// What to begin with in the next frame: the best axis, where that is the axis of the distance; else edges that are
-    /// nearest; else the direction. Edges are looked for only where contact points are wanted.
+    /// The hint for the next frame: the best axis, where that is the axis of the distance; else the nearest edges; else
+    /// the direction. Edges are looked for only where contact points are wanted.
     fn hint_across(&self, (a, b): (&Solid, &Solid), axes: &Axes, witness: &Witness, wanted: Wanted) -> Hint {
         let best = axes.best();
         if best.separation >= witness.at_least - 2.0 * self.preference() {
@@ -286,7 +288,7 @@ impl Convex<'_> {
         edges.map_or(Hint::towards(witness.normal), hint_to)
     }
 
-    /// Yes or no for solids, cuboids apart.
+    /// Whether solids overlap, other than two cuboids.
     pub(super) fn verdict_of_solids(&self, a: &Solid, b: &Solid) -> Verdict {
         let until = self.until_told();
         let bound = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
@@ -295,13 +297,13 @@ impl Convex<'_> {
             Found::Overlap => bound(true),
             Found::Nothing(direction) => {
                 let verdict = self.conclude(distance(a, b, direction, &until)).0;
-                // What was asked first is the first tier.
+                // What is evaluated first counts as the first tier.
                 if verdict.tier == Tier::Exact { verdict } else { bound(verdict.overlapping) }
             }
         }
     }
 
-    /// What the first tier's numbers say for solids, within their error of zero too.
+    /// [`Convex::guess`] for solids.
     pub(super) fn guess_of_solids(&self, a: &Solid, b: &Solid) -> bool {
         let until = Until { beyond: self.radii, within: self.radii, precision: &self.precision };
         match portal::search(a, b, self.radii, &self.precision) {
@@ -314,7 +316,7 @@ impl Convex<'_> {
         }
     }
 
-    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
+    /// When the distance iteration may stop for an overlap test: once it shows whether the radii close the gap.
     fn until_told(&self) -> Until<'_> {
         let doubt = self.precision.projection();
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
@@ -326,31 +328,32 @@ impl Convex<'_> {
         center_b - self.shape_a.center().as_dvec3()
     }
 
-    /// From A's centre to B's: where a search may begin.
+    /// The unit direction from A's centre to B's: where a search may begin.
     fn towards_b(&self) -> DVec3 {
         self.between_centers().try_normalize().unwrap_or(DVec3::X)
     }
 
-    /// The same where the cores' bounding spheres are apart.
+    /// [`Convex::towards_b`] where the cores' bounding spheres are apart.
     pub(super) fn direction_apart(&self) -> Option<DVec3> {
         let between = self.between_centers();
         let apart = between.length();
         (apart > self.precision.size + self.precision.projection()).then(|| between / apart)
     }
 
-    /// The second tier and the third, and how the cores lie. `best` is the axis that the first tier found best.
+    /// The decision by the second tier and the third, and how the cores lie. `best` is the axis that the first tier
+    /// found best.
     fn look_closer(&self, a: &Solid, b: &Solid, best: Option<&Axis>) -> (Verdict, Cores) {
         let towards = best.map_or_else(|| self.towards_b(), |axis| axis.normal);
         self.closer(distance(a, b, towards, &Until::met(&self.precision)), best)
     }
 
-    /// Yes or no for two cuboids whose axes do not tell.
+    /// Whether two cuboids overlap, where their axes do not decide it.
     pub(super) fn unclear_verdict(&self, a: &Solid, b: &Solid) -> Verdict {
         self.look_closer(a, b, None).0
     }
 
-    /// What the distance iteration has reached, beside the best axis: of the two lower bounds, the iteration's and the
-    /// axis', the better one is kept.
+    /// The decision from what the distance iteration has reached and the best axis: of their two lower bounds, the
+    /// better one is kept.
     fn closer(&self, mut reached: Reached, best: Option<&Axis>) -> (Verdict, Cores) {
         let mut tier = Tier::Double;
         if let (Reached::Between(witness), Some(best)) = (&mut reached, best)
@@ -367,7 +370,7 @@ impl Convex<'_> {
         (Verdict { tier, ..verdict }, witness)
     }
 
-    /// What the distance iteration has proved, and the third tier where it has proved nothing.
+    /// The decision that the distance iteration has proved, or the third tier's where it has proved nothing.
     fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
         match reached {
             Reached::Origin(Close { is_proved: true, .. }) => (DOUBLE_OVERLAP, Cores::Within(0.0)),
@@ -383,8 +386,8 @@ impl Convex<'_> {
         }
     }
 
-    /// The same of bounds on a distance, and whether there is a gap between the cores for all that is known. By
-    /// reference: witnesses are large, and most are handed on.
+    /// [`Convex::conclude`] for bounds on a distance; also whether there is a gap between the cores, as far as is
+    /// known. By reference: witnesses are large, and most are passed on.
     fn conclude_gap(&self, witness: &Witness) -> (Verdict, bool) {
         let doubt = self.precision.projection();
         if witness.at_least - self.radii > doubt {
@@ -403,14 +406,14 @@ impl Convex<'_> {
         Verdict { overlapping, tier: Tier::Exact }
     }
 
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
-    /// overlapped.
+    /// The answer for cores that an axis separates by so little that no pair of points shows it: their contact is made
+    /// as if they overlapped.
     fn all_but_touching(&self, a: &Solid, b: &Solid, axes: Axes, (verdict, gap): (Verdict, f64)) -> Probe {
         let precision = self.precision;
         let best = axes.best();
         let separation = best.separation.max(0.0) - self.radii;
         let preference = self.preference();
-        // The deepest corner is what is wanted here: none that is only nearly so.
+        // The very deepest corner is wanted here, not one that is nearly as deep.
         let even = preference;
         let near = self.same_place();
         let ask = Ask { axes: &axes, witness: None, margin: 0.0, preference, even, near, last: None };
@@ -427,12 +430,13 @@ impl Convex<'_> {
         })
     }
 
-    /// All axes that may be as good as one that shows `known` for certain, of solids that are no cuboids.
+    /// The best axes of all that may be as good as `known`, a separation that is certain, for solids that are not
+    /// cuboids.
     pub(crate) fn all_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
         separating_axes(a, b, &self.search(known))
     }
 
-    /// Those of faces alone: no contact is built on edges that a gap parts.
+    /// [`Convex::all_axes`] of faces alone: across a gap no contact is built on the axes of edges.
     fn face_axes(&self, a: &Solid, b: &Solid, known: f64) -> Axes {
         face_axes(a, b, &self.search(known))
     }

@@ -13,7 +13,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
-/// What a kernel in closed form says of two shapes.
+/// The result of a kernel in closed form.
 pub(super) struct Told {
     pub(super) separation: f64,
     /// A lower bound on it.
@@ -23,7 +23,7 @@ pub(super) struct Told {
     /// Closest points on the surfaces; they mean nothing in overlap.
     closest: [DVec3; 2],
     evidence: Evidence,
-    /// Where exact arithmetic may begin.
+    /// The corners from which exact arithmetic may start.
     corners: ArrayVec<Corner, 3>,
 }
 
@@ -42,7 +42,7 @@ impl Ball {
         if self.is_b { -self.nearest.normal } else { self.nearest.normal }
     }
 
-    /// The nearest place of A's core and B's.
+    /// The nearest points of A's core and B's.
     pub(super) fn points(&self) -> [DVec3; 2] {
         let (center, on_cuboid) = (self.center, self.nearest.on_cuboid);
         if self.is_b { [center, on_cuboid] } else { [on_cuboid, center] }
@@ -129,7 +129,7 @@ impl Convex<'_> {
         }
     }
 
-    /// Whether the shapes overlap, where closed-form kernels have told two bounds.
+    /// Whether the shapes overlap, given the two bounds of a closed-form kernel.
     pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
         let doubt = 2.0 * self.precision.projection();
         if told.at_least > doubt || told.separation < -doubt {
@@ -138,7 +138,7 @@ impl Convex<'_> {
         self.exactly(&told.corners)
     }
 
-    /// What a kernel without axes to try has told, within the limit.
+    /// The answer of [`Convex::probe`] from a closed-form kernel's result.
     pub(super) fn told(&self, told: Told, limit: f64) -> Probe {
         let precision = self.precision;
         if told.at_least > limit + precision.projection() {
@@ -146,7 +146,7 @@ impl Convex<'_> {
         }
         let verdict = self.told_verdict(&told);
         let Told { separation, at_least: bound, normal, closest, evidence, .. } = told;
-        // Half-spaces that overlap without end do so exactly.
+        // Half-spaces that overlap without bound do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {

@@ -1,12 +1,12 @@
-//! A gap told by what parted the solids in the last frame: no search, no iteration, no other axis.
+//! A gap found from what separated the solids in the last frame: no search, no iteration, no other axis.
 //!
 //! ```text
-//! a point of each solid     their distance is no more than that of the points
-//! an axis                   their distance is no less than their separation along it, all vertices projected
-//! both the same             that is the distance, whatever the points and the axis were guessed from
+//! a point of each solid     the solids' distance is no more than that of the points
+//! an axis                   it is no less than the separation along the axis, all vertices projected
+//! both agree                that is the distance, whatever the points and the axis were guessed from
 //! ```
-//! Guessed are a vertex straight over a face, the middle of an edge or of a face that lies level over one, two edges
-//! over each other, edges side by side, and corners. Of bodies at rest nearly all guesses are right. Two cuboids or
+//! The guesses are: a vertex straight over a face; the middle of an edge or a face that is level with a face below it;
+//! two edges that cross; edges side by side; corners. For bodies at rest nearly all guesses are right. Two cuboids or
 //! hulls of 32 vertices in a gap took 2.4 to 9 us, and take 0.7 to 1.6 with their contact points (AMD EPYC, Zen 4,
 //! 2026-11-21).
 
@@ -23,11 +23,11 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
 impl Hinted {
-    /// The axis of solids that a gap parts, and their closest points, where it is the axis of the distance: what is
-    /// deepest lies straight over a face, or two edges over each other.
+    /// This axis and the closest points of solids separated by a gap, if it is the axis of their distance: the deepest
+    /// vertex lies straight over the face, or the two edges cross.
     ///
-    /// The separation along it bounds the distance from below, the points from above, whatever they are; both must
-    /// be the same up to rounding. No search, no iteration, and no other axis.
+    /// The separation along the axis bounds the distance from below, any pair of points bounds it from above; both
+    /// bounds must agree up to rounding. No search, no iteration, and no other axis.
     pub(crate) fn across(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<(Axes, Witness)> {
         let Axis { separation, normal, of } = self.axis;
         let doubt = 8.0 * precision.projection();
@@ -62,10 +62,10 @@ impl Hinted {
     }
 }
 
-/// The same of edges near a direction that parted the solids in the last frame, at the vertices that are furthest
-/// along it: there the nearest points are looked for, and the axis from one to the other must show their distance.
+/// [`Hinted::across`] for a direction that separated the solids in the last frame. Finds the nearest points of two
+/// edges at the support vertices along it; the axis from one point to the other must show their distance.
 ///
-/// That is for edges side by side, whose cross product is no axis, and for corners.
+/// That covers edges side by side, whose cross product is no axis, and corners.
 pub(crate) fn across_edges(
     (a, b): (&Solid, &Solid),
     direction: DVec3,
@@ -74,14 +74,14 @@ pub(crate) fn across_edges(
     let edge_a = edge_across(a, a.support(direction).vertex, direction)?;
     let edge_b = edge_across(b, b.support(-direction).vertex, direction)?;
     let ([point_a, point_b], corners) = nearest_of_edges((a, edge_a), (b, edge_b));
-    // Edges that cross have an axis of their own, which is what their hint names.
+    // Edges that cross have an axis of their own, and a hint that names it.
     let [[from_a, from_b], [to_a, to_b]] = corners;
     let do_cross = from_a != to_a && from_b != to_b && !are_side_by_side((a, edge_a), (b, edge_b));
     if do_cross {
         return None;
     }
     let distance = (point_b - point_a).length();
-    // What is so close that the axis is rounding, or is no number, is left to those who can tell.
+    // Where the points are so close that the axis is rounding, or not a number, slower methods decide.
     let is_telling = distance > TELLING * precision.size;
     if !is_telling {
         return None;
@@ -94,7 +94,7 @@ pub(crate) fn across_edges(
     do_meet.then_some((Axes::NONE, witness))
 }
 
-/// The edge at a vertex that runs most nearly across a direction.
+/// The edge at a vertex that is most nearly perpendicular to a direction.
 fn edge_across(solid: &Solid, vertex: usize, direction: DVec3) -> Option<usize> {
     let local = solid.turned_back(direction);
     let mut best = (f64::INFINITY, None);
@@ -110,9 +110,9 @@ fn edge_across(solid: &Solid, vertex: usize, direction: DVec3) -> Option<usize> 
     best.1
 }
 
-/// The nearest points of two edges, and the ends that carry them.
+/// The nearest points of two edges, and the vertices that carry them.
 ///
-/// Where an end is nearest it is told by that vertex alone, whichever of its edges was looked at.
+/// Where an end is nearest, it is computed and reported as that vertex alone, whichever of its edges was given.
 fn nearest_of_edges(
     (a, edge_a): (&Solid, usize),
     (b, edge_b): (&Solid, usize),
@@ -144,15 +144,16 @@ fn foot((from, to): (DVec3, DVec3), point: DVec3) -> DVec3 {
 /// A point of one solid over a face of another.
 struct Over {
     point: DVec3,
-    /// Below it on the face's plane.
+    /// Its projection on the face's plane.
     foot: DVec3,
-    /// No less than the distance of the solids.
+    /// An upper bound on the distance of the solids.
     distance: f64,
-    /// Vertices of the face and of the other solid that carry them.
+    /// Vertices of the face and of the other solid that carry both points.
     corners: ArrayVec<[usize; 2], 4>,
 }
 
-/// Where the other solid's furthest vertex lies over a face, or the middle of what of its furthest edge or face does.
+/// The other solid's deepest vertex, if it lies over a face; else the middle of the part of its deepest edge or face
+/// that does.
 fn over_face(
     (solid, face): (&Solid, usize),
     outward: DVec3,
@@ -170,7 +171,7 @@ fn over_face(
             corners,
         });
     }
-    // What is no further up than rounding.
+    // What is level with the deepest vertex up to rounding.
     let level = Level::around(other, deepest, outward, 0.125 * doubt);
     let point = level.middle_over((solid, face), outward, other)?;
     let sunk = sunk_below(solid, face, (outward, point), doubt)?;
@@ -179,8 +180,8 @@ fn over_face(
     Some(Over { point, foot: point - outward * height, distance: height + sunk, corners })
 }
 
-/// How far a face may lie below its plane under a point that is inside it by more than `doubt`, as seen along its
-/// outward normal: none of its corners lies lower. Nothing where the point is not.
+/// How far a face may lie below its plane under a point: no further than its lowest corner. `None` unless the point, as
+/// seen along the outward normal, is inside the face by more than `doubt`.
 fn sunk_below(solid: &Solid, face: usize, (outward, point): (DVec3, DVec3), doubt: f64) -> Option<f64> {
     let is_over = in_face((solid, face), outward, point) > doubt;
     if !is_over {
@@ -190,9 +191,9 @@ fn sunk_below(solid: &Solid, face: usize, (outward, point): (DVec3, DVec3), doub
     Some((solid.face_reach(face, outward) - heights.fold(f64::INFINITY, f64::min)).max(0.0))
 }
 
-/// The nearest points of two edges, as shares of them.
+/// The nearest points of two edges, as parameters from 0 to 1 along them.
 ///
-/// Ericson, "Real-time collision detection" (2005), 5.1.9. Of parallel edges any nearest points will do.
+/// Ericson, "Real-time collision detection" (2005), 5.1.9. For parallel edges any nearest points will do.
 fn nearest_on_edges((a0, a1): (DVec3, DVec3), (b0, b1): (DVec3, DVec3)) -> [f64; 2] {
     let (along_a, along_b, between) = (a1 - a0, b1 - b0, b0 - a0);
     let (square_a, square_b) = (along_a.length_squared(), along_b.length_squared());

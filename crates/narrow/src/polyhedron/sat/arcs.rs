@@ -1,16 +1,17 @@
 //! Which edges of two solids may touch: those whose arcs on the Gauss map cross.
 //!
 //! An edge pair bounds the Minkowski difference exactly where the arc between the normals at A's edge crosses the
-//! negative of the arc between the normals at B's (Gregorius, "The separating axis test between convex polyhedra",
-//! GDC 2013). Each arc's ends must lie on different sides of the other's great circle, whose pole is the edge, and
-//! of the two antipodal points where the circles meet both arcs must pass through the same. Anything within the
-//! slack may.
+//! negative of the arc between the normals at B's (Gregorius, "The separating axis test between convex polyhedra", GDC
+//! 2013). Each arc's ends must lie on different sides of the other's great circle, whose pole is the edge's direction,
+//! and both arcs must pass through the same one of the two antipodal points where the circles meet. What is within the
+//! slack counts as crossing.
 //!
-//! The edge of a flat polygon has a half circle, from one side's normal over the outward direction in the plane to the
-//! other's; a segment has its whole great circle, and zero for ends and middle.
+//! The arc of a flat polygon's edge is a half circle, from one side's normal through the outward direction in the plane
+//! to the other side's normal. That of a segment is its whole great circle, stored with zero for ends and middle.
 //!
-//! One arc of A at a time against eight of B, in f32: a pair that is kept needlessly costs a verified axis, and the
-//! slack covers what f32 rounds. `may_cross` is the definition; the lanes do the same operations in the same order.
+//! One arc of A at a time is tested against eight of B, in f32: a pair that is kept needlessly costs one verified axis,
+//! and the slack covers the rounding of f32. `may_cross` is the definition; the lanes do the same operations in the
+//! same order.
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
@@ -21,8 +22,8 @@ use asunder_geometry::EdgeArc;
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::ARC_SLACK;
 
-/// Slack of a dot product of unit vectors in f32: that of the arcs, and more than what is rounded on the way to it,
-/// which is the vectors, the turn from B's axes to A's (10 units of 2^-24) and the product.
+/// Slack of a dot product of unit vectors in f32: that of the arcs, plus more than the rounding of the vectors, of the
+/// rotation from B's axes to A's (10 units of 2^-24) and of the product.
 const SLACK: f32 = ARC_SLACK as f32 + 16.0 * f32::EPSILON;
 
 /// Three coordinates of eight vectors.
@@ -48,7 +49,7 @@ impl ArcOctet {
         }
     }
 
-    /// Taken to other axes, by the images of their own.
+    /// Rotated into other axes, given the images of their own.
     fn turned(&self, basis: &[Vec3; 3]) -> Self {
         count_step();
         let turn = |v: &Eight| turned(v, basis);
@@ -59,7 +60,7 @@ impl ArcOctet {
         }
     }
 
-    /// About all eight, or as many as are there.
+    /// A cap around all eight, or as many as there are.
     fn cap(&self) -> Cap {
         let vector = |v: &Eight, i: usize| Vec3::new(v[0][i], v[1][i], v[2][i]);
         let is_there = |&i: &usize| vector(&self.along, i) != Vec3::ZERO;
@@ -80,8 +81,8 @@ fn turned(v: &Eight, [x, y, z]: &[Vec3; 3]) -> Eight {
     turned
 }
 
-/// Visits those pairs of the given edges, by their numbers, whose arcs may cross; the visitor gets their lower
-/// half-edges, and the place of B's edge in the list. Cost: their product, an eighth of it in steps.
+/// Visits those pairs of the given edges, by their numbers, whose arcs may cross. The visitor gets their lower
+/// half-edges and the index of B's edge in the list. Cost: the product of both counts, in an eighth as many steps.
 pub(super) fn for_edge_pairs(
     (a, edges_a): (&Solid, &[u16]),
     (b, edges_b): (&Solid, &[u16]),
@@ -115,7 +116,7 @@ pub(super) fn for_edge_pairs(
     }
 }
 
-/// The same of many edges of B, whose arcs are first told apart by the caps about eight of them.
+/// [`for_edge_pairs`] for many edges of B, whose arcs are first culled eight at a time by caps around them.
 pub(super) fn for_many_edge_pairs(
     (a, edges_a): (&Solid, &[u16]),
     (b, edges_b): (&Solid, &[u16]),
@@ -148,8 +149,8 @@ pub(super) fn for_many_edge_pairs(
     }
 }
 
-/// Up to so many edges of either are looked at one by one: most solids that overlap leave two of each, for which an
-/// eight took four times as long to lay out as to look at.
+/// Up to this many edges of either solid are tested one by one: most solids that overlap leave two of each, for which
+/// an octet took four times as long to lay out as to test.
 const FEW: usize = 4;
 
 /// B's axes as A sees them.
@@ -166,7 +167,7 @@ fn turned_arc(arc: &EdgeArc, [x, y, z]: &[Vec3; 3]) -> EdgeArc {
     EdgeArc { along: turn(arc.along), ends: [turn(arc.ends[0]), turn(arc.ends[1])], middle: turn(arc.middle) }
 }
 
-/// Those of all edges that are left of a solid: too much to be handed back by value.
+/// The arcs of all edges that are left of a solid: too large to return by value.
 type ArcOctets = ArrayVec<ArcOctet, { MAX_EDGES.div_ceil(8) }>;
 
 /// The arcs of B's edges in A's axes.
@@ -192,12 +193,12 @@ fn may_cross(a: &EdgeArc, b: &EdgeArc) -> bool {
     if same_side(dot(a.ends[0], b.along), dot(a.ends[1], b.along)) {
         return false;
     }
-    // An arc is no longer than a half circle, so its middle tells which of the two points it passes.
+    // An arc is no longer than a half circle, so its middle shows which of the two points it passes through.
     let meeting = a.along.cross(b.along);
     !opposite(dot(meeting, a.middle), -dot(meeting, b.middle))
 }
 
-/// [`may_cross_eight`] of a few.
+/// [`may_cross_eight`] for at most [`FEW`] arcs, one by one.
 fn may_cross_few(a: &EdgeArc, few: &[EdgeArc]) -> [u32; 8] {
     count_step();
     let mut crossing = [0; 8];
@@ -207,7 +208,8 @@ fn may_cross_few(a: &EdgeArc, few: &[EdgeArc]) -> [u32; 8] {
     crossing
 }
 
-/// `may_cross` of one arc and eight: 1 where they may, else 0. Numbers and not bools, so that lanes stay lanes.
+/// `may_cross` of one arc against eight: 1 where they may cross, else 0. Numbers instead of bools, so that the loop
+/// stays vectorised.
 #[inline]
 fn may_cross_eight(a: &EdgeArc, b: &ArcOctet) -> [u32; 8] {
     let dot = |v: Vec3, w: &Eight, i: usize| v.x * w[0][i] + v.y * w[1][i] + v.z * w[2][i];
@@ -245,7 +247,7 @@ mod tests {
         let mut state = 1_u64;
         let mut number = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            // Coarse, so that equal, opposite and square directions come up.
+            // Coarse, so that equal, opposite and perpendicular directions occur.
             ((state >> 60) as f32 - 7.5).round() / 4.0
         };
         let mut unit = || Vec3::new(number(), number(), number()).normalize_or_zero();
@@ -305,7 +307,7 @@ mod tests {
         parts(along_a, normals(b, edge_b)) && parts(along_b, normals(a, edge_a)) && sides[0] * sides[1] > 0.0
     }
 
-    /// Of so many sides, by powers of a rotation that has no order.
+    /// A prism of this many sides, by powers of a rotation of infinite order.
     fn prism(sides: usize) -> Shape3 {
         let corners = std::iter::successors(Some(DVec2::X), |at| Some(at.rotate(DVec2::new(0.6, 0.8))));
         let corners = corners.take(sides).map(|at| at.as_vec2());
@@ -323,7 +325,7 @@ mod tests {
                 let turn = random.turn(kind);
                 Pose3::new(random.vector() * 100.0, turn).unwrap()
             });
-            // Many edges, sorted and not, very long and very short arcs, and bundles of parallels.
+            // Many edges, sorted and not; very long and very short arcs; bundles of parallel edges.
             let shape_b = match case % 21 {
                 0 => random.round_hull(20 + case as usize % 60),
                 7 => prism(40),
@@ -332,7 +334,7 @@ mod tests {
             let shape_a = if case % 21 == 7 { prism(30) } else { shape_a };
             let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
             pair.with_solids(|a, b| {
-                // Any part of the edges, so that places and numbers differ.
+                // Arbitrary subsets of the edges, so that places in the list differ from edge numbers.
                 let some = |solid: &Solid, from: usize| -> Vec<u16> {
                     (0..solid.arcs().len() as u16).skip(from).step_by(1 + case as usize % 3).collect()
                 };

@@ -3,7 +3,7 @@
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
 
-/// What an axis is the axis of.
+/// The features that an axis belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) enum AxisOf {
     FaceA(usize),
@@ -20,15 +20,15 @@ pub(crate) struct Axis {
     pub(crate) of: AxisOf,
 }
 
-/// The best axis of each kind. An axis that was never looked at has separation -inf.
+/// The best axis of each kind. One that was never evaluated has separation -inf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axes {
     pub(crate) face_a: Axis,
     pub(crate) face_b: Axis,
     pub(crate) edges: Axis,
-    /// No axis that was proposed has a greater separation in truth.
+    /// An upper bound on the true separation along every axis that was proposed.
     ceiling: f64,
-    /// What the axes may fall short of the truth by for pairs of edges that proposed none.
+    /// By how much the best axis may fall short of the truth because of edge pairs that proposed none.
     pub(super) left_out: f64,
 }
 
@@ -41,17 +41,17 @@ impl Axes {
         left_out: 0.0,
     };
 
-    /// Takes note that some axis shows a separation, and may show too little by `doubt`.
+    /// Records that some axis shows a separation, which may be too small by `doubt`.
     #[inline]
     pub(crate) fn raise(&mut self, separation: f64, doubt: f64) {
         self.ceiling = self.ceiling.max(separation + doubt);
     }
 
-    /// Takes note of edges so nearly parallel that their axis is not proposed, by the separation along it.
+    /// Records a pair of edges so nearly parallel that their axis is not proposed, given the separation along it.
     ///
-    /// Two bounds hold for the axis that they should have: it shows no more than this one and its rounding, and no more
-    /// than the best face and what a turn by the edges' angle costs. Most such pairs are far from being the best, and
-    /// the first of the two says so.
+    /// Two bounds hold for the true axis of these edges: it shows no more than the given one plus its rounding, and no
+    /// more than the best face plus the cost of a rotation by the edges' angle. Most such pairs are far from being the
+    /// best, which the first bound shows.
     #[inline]
     pub(crate) fn leave_out(&mut self, separation: f64, squared_sine: f64, precision: &Precision) {
         // Twice: where rounding is no longer small next to the sine, the axis is off by more than their quotient.
@@ -60,7 +60,7 @@ impl Axes {
         self.left_out = self.left_out.max(by_angle.min(by_axis));
     }
 
-    /// By how much the truth may exceed the best separation, that one's own rounding apart.
+    /// By how much the true separation may exceed the best one found, apart from that one's own rounding.
     pub(crate) fn short(&self) -> f64 {
         (self.ceiling - self.best().separation).max(self.left_out)
     }

@@ -1,28 +1,29 @@
-//! Which eights of arcs lie near an arc at all: told by a cap of the Gauss map about each.
+//! Which octets of arcs lie near an arc at all, decided by a cap of the Gauss map around each.
 //!
-//! Of two hulls of 256 vertices that are symmetric enough for nothing to be culled, 762 arcs meet 96 eights, 17 ns
-//! each. Edges of many come sorted by where they look, so that the caps about eight of them are small: one step
-//! says of eight caps whether an arc may reach any of theirs.
+//! For two hulls of 256 vertices so symmetric that nothing is culled, 762 arcs are tested against 96 octets, 17 ns
+//! each. The edges of large hulls are sorted by the direction they face, so that the caps around eight of them are
+//! small: one step decides for eight caps whether an arc may reach any of their arcs.
 //!
-//! Arcs cross at a point that is in both their caps, so that their centres are no further apart than both radii.
-//! The cosine of that sum is a product of cosines less one of sines: no angle is ever made.
+//! Arcs cross at a point that is in both their caps, so the caps' centres are no further apart than the sum of both
+//! radii. The cosine of that sum is a product of cosines less a product of sines: no angle is ever computed.
 
 use crate::counted::count_step;
 use asunder_geometry::EdgeArc;
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::ARC_SLACK;
 
-/// Slack of both sides of the comparison, each of which is rounded by less than 4e-6: vectors turned to other axes,
-/// by 6e-7 each, and sums of three products.
+/// Slack for both sides of the comparison, each of which is off by less than 4e-6: vectors rotated into other axes, by
+/// 6e-7 each, and sums of three products.
 const SLACK: f32 = ARC_SLACK as f32 + 1e-5;
 
-/// Caps whose cosine is below this are the whole sphere: up to a half circle, ends inside a cap mean an arc inside it.
+/// Caps whose cosine is below this become the whole sphere: only in caps up to a hemisphere does an arc lie inside if
+/// its ends do.
 const WIDEST: f32 = 0.01;
 
 /// A cap of the Gauss map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cap {
-    /// Zero where it is the whole sphere.
+    /// Zero for the whole sphere.
     center: Vec3,
     /// Cosine and sine of its radius.
     cosine: f32,
@@ -32,12 +33,12 @@ pub(super) struct Cap {
 impl Cap {
     const WHOLE: Self = Self { center: Vec3::ZERO, cosine: 0.0, sine: 1.0 };
 
-    /// About a direction, around the ends of arcs.
+    /// The cap about a direction that holds the ends of arcs.
     fn about(center: Vec3, ends: impl Iterator<Item = Vec3>) -> Self {
         let least = ends
             .map(|end| end.dot(center))
             .fold(1.0, |least: f32, end| if end < least { end } else { least });
-        // A little wider, so that rounding does not make a small one smaller.
+        // Slightly wider, so that rounding does not make a small cap too small.
         let cosine = least - 1e-6;
         if cosine < WIDEST {
             return Self::WHOLE;
@@ -45,12 +46,12 @@ impl Cap {
         Self { center, cosine, sine: (1.0 - cosine * cosine).sqrt() }
     }
 
-    /// About one arc.
+    /// Around one arc.
     pub(super) fn of_arc(arc: &EdgeArc) -> Self {
         Self::about(arc.middle, arc.ends.into_iter())
     }
 
-    /// About several arcs, by the middles and both ends of each.
+    /// Around several arcs, given the middles and both ends of each.
     pub(super) fn of_arcs(middles: impl Iterator<Item = Vec3>, ends: impl Iterator<Item = Vec3>) -> Self {
         Self::about(middles.fold(Vec3::ZERO, |sum, middle| sum + middle).normalize_or_zero(), ends)
     }
@@ -64,7 +65,7 @@ impl Cap {
     }
 }
 
-/// Eight caps side by side. Places past the last are whole spheres.
+/// Eight caps side by side. Lanes past the last are whole spheres.
 #[derive(Clone, Copy)]
 pub(super) struct CapOctet {
     center: [[f32; 8]; 3],
@@ -85,7 +86,7 @@ impl CapOctet {
         octet
     }
 
-    /// `may_meet_negative` of one cap and eight: 1 where they may, else 0.
+    /// `may_meet_negative` of one cap against eight: 1 where they may meet, else 0.
     #[inline]
     pub(super) fn may_meet_negative(&self, cap: &Cap) -> [u32; 8] {
         count_step();
@@ -104,7 +105,7 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// Arcs about a direction, at most so long, some all but a half circle; and one point of each, anywhere on it.
+    /// An arc near a direction, of a length set by `reach`, some nearly a half circle; and a random point on it.
     fn arc(random: &mut Random, about: Vec3, reach: f32) -> (EdgeArc, Vec3) {
         let mut near = || (about + reach * random.vector()).normalize_or(Vec3::X);
         let (left, right) = (near(), near());
@@ -123,7 +124,7 @@ mod tests {
             let about = random.vector();
             let share = random.number().abs();
             let (one, at) = arc(&mut random, about.normalize_or(Vec3::X), reach * share);
-            // The first of eight others ends where the negative of the first passes, on its line or anywhere.
+            // The arcs of the first four caps end where the negative of the first arc passes; the others lie anywhere.
             let caps: [Cap; 8] = core::array::from_fn(|i| {
                 let about = if i < 4 { -at } else { random.vector() };
                 let arcs: [EdgeArc; 3] = core::array::from_fn(|_| arc(&mut random, about, reach).0);

@@ -1,24 +1,27 @@
-//! A proof that no direction is better than an axis, by single vertices of the difference: for pairs of which the ball
-//! in the middle does not tell.
+//! A proof by single vertices of the difference that no direction is better than an axis, for pairs where the ball in
+//! the middle does not suffice.
 //!
-//! The facet T, at depth d along the axis n, belongs to M = A - B, and so does each vertex of A less each of B. The
-//! axis is the best one if M reaches d or more in every direction.
+//! The facet T, at depth d along the axis n, is part of M = A - B, and so is each vertex of A minus each vertex of B.
+//! The axis is the best one if M reaches at least d in every direction.
 //!
 //! ```text
-//! plane    the sphere of directions, seen from n: one at angle t to n is the point x at 1 / tan (t / 2), n itself is at infinity
-//! outline  a corner q of T, as seen along n, reaches d where q.x >= d: what no corner does is a convex polygon about x = 0
-//! disc     a point m of M reaches d in a disc:  (d - m.n) |x|^2 - 2 m.x + (d + m.n) <= 0;  a ball of radius r likewise, with d - r
-//! cover    each piece of the polygon has a disc. Where one of its corners is out, so is the vertex of M that is furthest
-//!          there: either its disc has that corner, and the piece is cut in two where either disc does better, or M
-//!          does not reach d there, and the direction beats the axis
+//! plane    the sphere of directions, projected stereographically: a direction at angle t to n becomes a point x at
+//!          1 / tan (t / 2) from the middle; n itself is at infinity
+//! outline  a corner q of T, as seen along n, reaches d where q.x >= d; what no corner reaches is a convex polygon
+//!          about x = 0
+//! disc     a point m of M reaches d inside a disc:  (d - m.n) |x|^2 - 2 m.x + (d + m.n) <= 0;  a ball of radius r
+//!          likewise, with d - r in place of d
+//! cover    each piece of the polygon has a disc. Where a corner of the piece lies outside it, take the vertex of M
+//!          that is furthest in that direction. If its disc holds the corner, cut the piece in two, by which of both
+//!          discs does better. If not, M does not reach d there, and that direction beats the axis
 //! ```
-//! A disc that has all corners of a convex piece has the piece. All of it is products. Of pairs in the air whose ball
-//! does not tell, a sixth need no vertex, three quarters one or two. It takes 1,500 instructions, a seventh of what the
-//! test of all axes takes (hulls of 8 to 32 vertices, counted by callgrind, 2026-11-24).
+//! A disc that holds all corners of a convex piece holds the piece. All of it is products. Of airborne pairs whose ball
+//! does not suffice, a sixth need no vertex and three quarters one or two. It takes 1,500 instructions, a seventh of
+//! what the test of all axes takes (hulls of 8 to 32 vertices, counted by callgrind, 2026-11-24).
 //!
-//! The polygon is what an expanding polytope has to cover still, laid out flat (van den Bergen, "Proximity queries and
-//! penetration depth computation on 3D game objects", GDC 2001); the stereographic
-//! projection makes a disc of each point's bound on the sphere of directions.
+//! The polygon is what an expanding polytope would still have to cover, laid out flat (van den Bergen, "Proximity
+//! queries and penetration depth computation on 3D game objects", GDC 2001). The stereographic projection turns each
+//! point's bound on the sphere of directions into a disc.
 
 use super::super::solid::Solid;
 use super::AxisOf;
@@ -26,43 +29,44 @@ use super::level::Level;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, DVec3};
 
-/// Corners of a facet, or of a piece, at most: of others nothing is proved.
+/// Most corners of a facet or of a piece: for larger ones nothing is proved.
 const MOST_CORNERS: usize = 16;
 
-/// Pieces that wait at most.
+/// Most pieces that wait to be covered.
 const MOST_PIECES: usize = 8;
 
-/// Vertices of the difference that are asked for at most. Two are enough for nine of ten.
+/// Most vertices of the difference that are searched for. Two are enough in nine of ten cases.
 const MOST_VERTICES: usize = 6;
 
-/// Pieces that are looked at, at most.
+/// Most pieces that are examined.
 const MOST_STEPS: usize = 32;
 
-/// By what share the outline may have to be widened for rounding.
+/// The largest relative widening of the outline for rounding that is still accepted.
 const MOST_GROWTH: f64 = 1e-3;
 
-/// What the cover has told.
+/// What the cover has proved.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cover {
-    /// No direction is better.
+    /// No direction beats the axis.
     Whole,
-    /// This one is, by a unit vector, or is too close to call.
+    /// This unit direction beats it, or is too close to call.
     Torn(DVec3),
-    /// Nothing.
+    /// Nothing was proved.
     Unknown,
 }
 
 type Corners = ArrayVec<DVec2, MOST_CORNERS>;
 
-/// What of both solids the facet is the difference of, by their vertices: a face with a vertex, an edge or a face, or
-/// two edges.
+/// The features of both solids whose difference is the facet, by their vertices: a face with a vertex, an edge or a
+/// face; or two edges.
 pub(super) struct Facet {
     of_a: ArrayVec<usize, MOST_CORNERS>,
     of_b: ArrayVec<usize, MOST_CORNERS>,
 }
 
 impl Facet {
-    /// Of the other solid's furthest vertex against a face, and what is as far; nothing of a face of many corners.
+    /// For a face, `deepest` is the other solid's deepest vertex and `level` what is equally deep. `None` for a face of
+    /// too many corners.
     pub(super) fn new(
         (a, b): (&Solid, &Solid),
         of: AxisOf,
@@ -84,7 +88,7 @@ impl Facet {
     }
 }
 
-/// So many vertices, or nothing where they are too many.
+/// All of the vertices, or `None` where they are too many.
 fn all(mut vertices: impl Iterator<Item = usize>) -> Option<ArrayVec<usize, MOST_CORNERS>> {
     let mut list = ArrayVec::new_const();
     vertices.try_for_each(|vertex| list.try_push(vertex)).ok()?;
@@ -95,7 +99,7 @@ fn all(mut vertices: impl Iterator<Item = usize>) -> Option<ArrayVec<usize, MOST
 struct Plane {
     normal: DVec3,
     axes: [DVec3; 2],
-    /// What must be reached, in metres.
+    /// The depth that must be reached, in metres.
     depth: f64,
 }
 
@@ -106,13 +110,13 @@ struct Disc {
     constant: f64,
 }
 
-/// What is to be covered, and by what.
+/// A piece of the polygon, and the disc that is to cover it.
 struct Piece {
     corners: Corners,
     disc: Disc,
 }
 
-/// Whether the difference reaches a depth along every unit direction, of which a facet at that depth lies across
+/// Whether the difference reaches `depth` along every unit direction, given that `facet` lies at that depth across
 /// `normal`.
 pub(super) fn cover(
     (a, b): (&Solid, &Solid),
@@ -122,7 +126,7 @@ pub(super) fn cover(
     let (x, y) = normal.any_orthonormal_pair();
     let plane = Plane { normal, axes: [x, y], depth: depth + doubt };
     let Some(corners) = plane.outline((a, b), facet, (depth, doubt)) else { return Cover::Unknown };
-    // Of a centre that is not inside, a radius below zero says by how much it is not.
+    // Where a centre is not inside its solid, the radius is negative, by at least its distance from it.
     let ball = plane.disc(a.center() - b.center(), a.inner_radius + b.inner_radius);
     let Some(disc) = ball else { return Cover::Unknown };
     let mut left = ArrayVec::<Piece, MOST_PIECES>::new();
@@ -159,7 +163,7 @@ impl Plane {
         self.normal * up + (self.axes[0] * at.x + self.axes[1] * at.y) * aside
     }
 
-    /// Nothing of what reaches the depth along the normal itself, which no point should.
+    /// `None` for what reaches the depth along the normal itself, which no point should.
     fn disc(&self, center: DVec3, radius: f64) -> Option<Disc> {
         let (up, short) = (self.normal.dot(center), self.depth - radius);
         let scale = 1.0 / (short - up);
@@ -167,15 +171,15 @@ impl Plane {
         is_short.then(|| Disc { center: self.flat(center) * scale, constant: (short + up) * scale })
     }
 
-    /// A vertex of the difference that is the furthest in a direction up to a rounding of f32: where it does not reach
-    /// far enough by that, nothing is lost but the proof.
+    /// A support vertex of the difference, up to the rounding of f32: if it falls short for that reason, only the proof
+    /// is lost.
     fn furthest(&self, (a, b): (&Solid, &Solid), at: DVec2) -> DVec3 {
         let direction = self.direction(at);
         let (of_a, of_b) = (a.rough_support(direction).0, b.rough_support(-direction).0);
         a.point(of_a.vertex) - b.point(of_b.vertex)
     }
 
-    /// The directions in which no corner of the facet reaches its depth, widened by what rounding may have moved the
+    /// The directions in which no corner of the facet reaches its depth, widened by how far rounding may have moved the
     /// corners.
     fn outline(
         &self,
@@ -188,7 +192,7 @@ impl Plane {
         let mut from = *sum.last()?;
         for &to in &sum {
             let area = from.perp_dot(to);
-            // The origin lies straight behind the facet, or this is no proof.
+            // Without the origin straight behind the facet there is no proof.
             let is_around = area > 0.0;
             if !is_around {
                 return None;
@@ -199,7 +203,7 @@ impl Plane {
             from = to;
         }
         let growth = doubt * furthest.sqrt() / depth;
-        // What is not a number is not small.
+        // NaN is not small.
         let is_small = growth < MOST_GROWTH;
         for at in &mut outline {
             *at *= 1.0 + 2.0 * growth;
@@ -207,8 +211,8 @@ impl Plane {
         is_small.then_some(outline)
     }
 
-    /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, by the way they
-    /// lead.
+    /// The facet's corners as seen against the normal, counter-clockwise: the sides of both features, merged by their
+    /// angles.
     fn difference(&self, (a, b): (&Solid, &Solid), facet: &Facet) -> Option<Corners> {
         let (mut of_a, mut of_b) = (Corners::new_const(), Corners::new_const());
         of_a.extend(facet.of_a.iter().map(|&vertex| self.flat(a.point(vertex))));
@@ -227,9 +231,9 @@ impl Plane {
     }
 }
 
-/// Whether the one of two ways has the lesser angle, from zero to a full turn, or both the same.
+/// Whether the first of two directions has the smaller angle, from zero to a full turn, or both have the same.
 fn is_first([one, other]: [DVec2; 2]) -> bool {
-    // Opposite ways have no cross product that could tell.
+    // The cross product cannot order opposite directions.
     let is_down = |way: DVec2| way.y < 0.0 || way.y == 0.0 && way.x < 0.0;
     match (is_down(one), is_down(other)) {
         (false, true) => true,
@@ -238,7 +242,7 @@ fn is_first([one, other]: [DVec2; 2]) -> bool {
     }
 }
 
-/// Puts the corners of a convex polygon counter-clockwise, from the lowest on.
+/// Orders the corners of a convex polygon counter-clockwise, starting from the lowest.
 fn from_lowest(list: &mut Corners) {
     let area: f64 = (2..list.len()).map(|i| (list[i - 1] - list[0]).perp_dot(list[i] - list[0])).sum();
     if area < 0.0 {
@@ -267,13 +271,13 @@ impl Disc {
 }
 
 impl Piece {
-    /// The corner that is furthest out of the disc, if any is.
+    /// The corner that is furthest outside the disc, if any is outside.
     #[inline(always)]
     fn furthest_out(&self) -> Option<DVec2> {
         let mut most = (0.0, None);
         for &at in &self.corners {
             let power = self.disc.power(at);
-            // What is not a number is out.
+            // NaN counts as outside.
             let is_no_further = power <= most.0;
             if !is_no_further {
                 most = (power, Some(at));
@@ -283,15 +287,15 @@ impl Piece {
     }
 }
 
-/// Cuts the last piece in two: what another disc does better, and what its own does.
+/// Cuts the last piece in two: the part that another disc covers better, and the rest.
 ///
-/// Sutherland and Hodgman, "Reentrant polygon clipping" (1974), by both sides at once.
+/// Sutherland and Hodgman, "Reentrant polygon clipping" (1974), keeping both sides at once.
 fn cut_last(pieces: &mut ArrayVec<Piece, MOST_PIECES>, disc: Disc) -> Option<()> {
     let piece = pieces.last_mut()?;
     let (own, whole) = (piece.disc, core::mem::take(&mut piece.corners));
     let mut better = Corners::new();
-    // Where both have the same power: a line. Of numbers that are none, all is left to its own disc, which does not
-    // hold it.
+    // Zero on the line where both discs have the same power. With NaN everything is left to the piece's own disc, which
+    // does not hold it.
     let side = |at: DVec2| 2.0 * (disc.center - own.center).dot(at) + (own.constant - disc.constant);
     let mut before = *whole.last()?;
     let mut was = side(before);

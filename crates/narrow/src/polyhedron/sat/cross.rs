@@ -38,7 +38,8 @@ impl Cross {
         Self { axis: along_a.cross(along_b), squares: [along_a.length_squared(), along_b.length_squared()] }
     }
 
-    /// Turned from A to B; of A's edge, its direction and one that lies between the normals beside it.
+    /// The cross product, oriented from A to B. For A's edge it takes the direction and one that lies between the
+    /// normals beside it.
     #[inline]
     pub(super) fn outwards(
         (along_a, out_of_a): (DVec3, DVec3),
@@ -46,24 +47,24 @@ impl Cross {
         out_of_b: impl FnOnce() -> DVec3,
     ) -> Self {
         let cross = Self::new(along_a, along_b);
-        // Outwards as seen from A's edge: between the normals of its two faces. A segment looks everywhere; then B's
-        // edge tells.
+        // Outwards as seen from A's edge: between the normals of its two faces. A segment's arc is its whole great
+        // circle; then B's edge decides.
         let outwards = if out_of_a == DVec3::ZERO { -out_of_b() } else { out_of_a };
         if cross.axis.dot(outwards) < 0.0 { Self { axis: -cross.axis, ..cross } } else { cross }
     }
 
-    /// Of the sine between the edges.
+    /// The square of the sine of the angle between the edges.
     pub(super) fn squared_sine(&self) -> f64 {
         self.axis.length_squared() / (self.squares[0] * self.squares[1])
     }
 
-    /// No less than the product of the edges' lengths.
+    /// An upper bound on the product of the edges' lengths.
     #[inline]
     pub(super) fn lengths(&self) -> f64 {
         0.5 * (self.squares[0] + self.squares[1])
     }
 
-    /// Whether the edges are so nearly parallel that the axis would be rounding. Edges of no length are.
+    /// Whether the edges are so nearly parallel that the axis would be rounding. Also true for edges of no length.
     #[inline]
     pub(super) fn is_noise(&self) -> bool {
         let least = PARALLEL_EDGES * PARALLEL_EDGES * (self.squares[0] * self.squares[1]);

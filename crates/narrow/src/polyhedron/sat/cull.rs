@@ -1,23 +1,23 @@
-//! Which faces and edges of a solid may bear the best axis at all, told by spheres inside the other solid.
+//! Which faces and edges of a solid may give the best axis at all, decided by spheres inside the other solid.
 //!
 //! ```text
 //! c, r   centre and radius of a sphere inside B;    n, h   a normal of A and how far A reaches along it
 //! separation along n  =  min over B of n.x - max over A of n.x  <=  n.c - h - r
 //! ```
-//! That is one dot product a face. Along the arc of an edge, n.c - h is the projection of c, seen from a point of
-//! the edge, on a unit vector that turns: a cosine. If it is greatest inside the arc, it is greater there than at
-//! both ends by at most 1 / cos(t / 2) for an arc of t. What cannot come up to the best axis found so far is left out.
+//! That is one dot product a face. Along the arc of an edge, n.c - h is the projection of c, taken from a point of the
+//! edge, on a rotating unit vector: a cosine. If its maximum lies inside the arc, it is at most 1 / cos(t / 2) times
+//! the greater of both ends, for an arc of angle t. Whatever cannot come up to the best axis found so far is left out.
 //!
 //! 1. *The sphere* ("Inscribed spheres", box2d.org, September 2026) leaves 11 of 90 edges of a hull of 32 vertices,
 //!    and 39 where they overlap deeply.
-//! 2. *Points*: any vertex of B is a sphere of no radius. One that is furthest against some edge's normal mostly
-//!    shows that edge, and its neighbours, to be deeper than the best, where the sphere, which lies in the middle,
-//!    cannot. What is left is looked at one by one, and brings such a point each time.
+//! 2. *Points*: any vertex of B is a sphere of radius zero. The support vertex against some edge's normal mostly shows
+//!    that this edge and its neighbours are deeper than the best axis, where the sphere, which lies in the middle,
+//!    cannot. The edges that are left are examined one by one, and each contributes such a point.
 //! 3. *Lanes*: eight faces or edges a step. One by one, with the same tests, took four times as long.
-//! 4. *Neighbours in one octet*, of hulls with many edges: one point tells all eight. 256 vertices deep and turned,
-//!    12 % less.
+//! 4. *Neighbours in one octet*, for hulls with many edges: one point mostly decides all eight. 256 vertices, deep and
+//!    rotated: 12 % less.
 //!
-//! f32 lanes with a bound on their rounding: nothing is left out wrongly.
+//! The lanes are f32 with a bound on their rounding: nothing is left out wrongly.
 
 use super::super::solid::Solid;
 use super::MAX_EDGES;
@@ -27,28 +27,30 @@ use asunder_geometry::glam::Vec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 use asunder_geometry::{EdgeOctet, FaceOctet};
 
-/// Eights of faces of a hull with the most vertices: no more than twice as many faces as vertices.
+/// Octets of faces of a hull with the most vertices: it has at most twice as many faces as vertices.
 const MAX_OCTETS: usize = MAX_HULL_VERTICES / 4;
 
 /// Vertices of the other solid that are kept.
 const POINTS: usize = 8;
 
-/// So many edges are handed on as they are: looking at one costs as much as its arc against some thirty others.
+/// Up to this many edges are passed on without a closer look: one look costs as much as testing the edge's arc against
+/// some thirty others.
 const FEW: usize = 32;
 
-/// How far a sphere lies over each face of a solid, eight by eight.
+/// How far a sphere's centre lies over each face of a solid, eight by eight.
 pub(super) type Heights = ArrayVec<[f32; 8], MAX_OCTETS>;
 
-/// What a solid's faces and edges see of the other solid.
+/// The spheres of the other solid by which a solid's faces and edges are culled.
 pub(super) struct Sight<'a, 'b> {
     pub(super) solid: &'a Solid<'b>,
     pub(super) other: &'a Solid<'b>,
     sphere: Ball,
-    /// How far the sphere lies over each face. It stays where it is: moved with the rest, all its room would be copied.
+    /// How far the sphere's centre lies over each face. Borrowed: moved with the rest, its full capacity would be
+    /// copied.
     over: &'a mut Heights,
-    /// The one that told last comes first.
+    /// The one that was last added or last ruled something out comes first.
     points: ArrayVec<Ball, POINTS>,
-    /// The place that was last given away.
+    /// The slot that was overwritten last.
     turn: usize,
 }
 
@@ -57,12 +59,12 @@ pub(super) struct Sight<'a, 'b> {
 struct Ball {
     center: Vec3,
     radius: f64,
-    /// The most that can be lost to rounding of how far the centre lies over a face: conversions, products, sums
-    /// and the height are below 6 units of 2^-24 of the terms' sum.
+    /// A bound on the rounding of how far the centre lies over a face: conversions, products, sums and the height are
+    /// together off by less than 6 units of 2^-24 of the terms' sum.
     doubt: f32,
 }
 
-/// What eight candidates may come to: 1 for those that may show enough, else 0. Numbers, so that lanes stay lanes.
+/// The state of eight candidates: 1 for those that may show enough, else 0. Numbers, so that loops stay vectorised.
 type Open = [u32; 8];
 
 const NONE_OPEN: Open = [0; 8];
@@ -73,7 +75,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         Self { solid, other, sphere, over, points: ArrayVec::new_const(), turn: 0 }
     }
 
-    /// The face that the other's centre is furthest over; of equals the first.
+    /// The face that the other solid's centre is furthest above; on ties, the first.
     pub(super) fn highest(&mut self) -> Option<usize> {
         let mut top = [f32::NEG_INFINITY; 8];
         for faces in self.solid.face_octets().iter().take(MAX_OCTETS) {
@@ -89,7 +91,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         Some(8 * place + i)
     }
 
-    /// Takes a vertex of the other solid to tell by.
+    /// Adds a vertex of the other solid as a point to cull by.
     pub(super) fn add(&mut self, vertex: usize) {
         let point = self.solid.to_local(self.other.point(vertex)).as_vec3();
         let new = Ball::new(self.solid, point, 0.0);
@@ -102,7 +104,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Finds a place behind the first, in turns.
+    /// Stores a point behind the first one, overwriting the slots in turn.
     fn keep(&mut self, old: Ball) {
         if let Err(full) = self.points.try_push(old) {
             self.turn = self.turn % (POINTS - 1) + 1;
@@ -110,8 +112,8 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Visits faces whose axis may show `separation`, ascending. The visitor returns the vertex of the other solid
-    /// that is furthest against the face, and what the next one must show.
+    /// Visits faces whose axis may show `separation`, in ascending order. The visitor returns the other solid's deepest
+    /// vertex against the face, and the separation that the next face must show.
     pub(super) fn for_faces(&mut self, mut separation: f64, mut visit: impl FnMut(usize) -> (usize, f64)) {
         for place in 0..self.over.len() {
             let mut open = above(&self.over[place], self.sphere.least(separation));
@@ -131,16 +133,16 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Edges with a normal along which the separation may come to `separation`, by their numbers, in the order of their
-    /// octets.
+    /// Collects the numbers of edges with a normal along which the separation may come to `separation`, in the order of
+    /// their octets.
     ///
-    /// The middle of a half circle is told by none of its ends: flat solids keep all of their edges.
+    /// The ends of a half circle say nothing about its middle: flat solids keep all of their edges.
     pub(super) fn edges(&mut self, separation: f64, into: &mut ArrayVec<u16, MAX_EDGES>) {
         if self.solid.face_count() <= 2 {
             into.extend((0..self.solid.arcs().len() as u16).take(MAX_EDGES));
             return;
         }
-        // Lanes, until it is known which are left.
+        // Lane indices, until it is known which are left.
         for (place, edges) in self.solid.edge_octets().iter().enumerate() {
             let mut open = self.sphere.rises(edges, separation);
             if open == NONE_OPEN {
@@ -152,7 +154,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         if into.len() > FEW {
             self.look_closer(separation, into);
         }
-        // Of fewer, lanes are numbers.
+        // With fewer edges, lane indices are edge numbers.
         if self.solid.arcs().len() >= EdgeOctet::SORTED_FROM {
             for edge in into {
                 let lane = *edge as usize;
@@ -161,7 +163,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         }
     }
 
-    /// Asks for the vertex that is furthest against the middle of each edge's arc. It mostly settles that edge and
+    /// Adds the other solid's support vertex against the middle of each edge's arc. It mostly rules out that edge and
     /// some of its neighbours.
     fn look_closer(&mut self, separation: f64, lanes: &mut ArrayVec<u16, MAX_EDGES>) {
         let (mut kept, mut at) = (0, 0);
@@ -176,7 +178,7 @@ impl<'a, 'b> Sight<'a, 'b> {
             let octet = &self.solid.edge_octets()[place as usize];
             open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
-                // Of shapes so symmetric that all are as good, none is settled.
+                // Given up where too few are ruled out: on shapes so symmetric that all edges are as good, none is.
                 if asked < FEW || 8 * in_vain < 7 * asked {
                     let middle = self.solid.arcs()[octet.numbers[i] as usize].middle;
                     let middle = self.solid.turned(middle.as_dvec3().normalize_or_zero());
@@ -195,7 +197,7 @@ impl<'a, 'b> Sight<'a, 'b> {
         lanes.truncate(kept);
     }
 
-    /// What the points leave open. The one that closes the last comes first the next time.
+    /// The candidates that the points leave open. The point that closes the last of them comes first the next time.
     fn closed_by_points(&mut self, mut open: Open, open_by: impl Fn(&Ball) -> Open) -> Open {
         for place in 0..self.points.len() {
             open = both(open, open_by(&self.points[place]));
@@ -214,7 +216,7 @@ impl Ball {
         Self { center, radius, doubt }
     }
 
-    /// What the ball must come to over a plane for the axis to show `separation`.
+    /// How far over a plane the ball's centre must be for the axis to show `separation`.
     fn least(&self, separation: f64) -> f32 {
         ((separation + self.radius) as f32).next_down()
     }
@@ -231,14 +233,14 @@ impl Ball {
         over
     }
 
-    /// Which of eight edges' arcs may come to show `separation`.
+    /// Which of eight edges' arcs may show `separation`.
     #[inline]
     fn rises(&self, edges: &EdgeOctet, separation: f64) -> Open {
         let least = self.least(separation);
         let [left, right] = &edges.sides;
         let (over, other) = (self.over(left), self.over(right));
         let mut open = NONE_OPEN;
-        // Below zero an arc comes to no more than its ends.
+        // At or below zero an arc comes to `least` only where one of its ends does.
         if least <= 0.0 {
             for (i, open) in open.iter_mut().enumerate() {
                 *open = u32::from((over[i] > least) | (other[i] > least));
@@ -252,9 +254,9 @@ impl Ball {
             // Greatest inside the arc only where it rises from both ends.
             let is_inside =
                 (other + slack > cosine * over) & (over + slack > cosine * other) & (higher > 0.0);
-            // 1 / cos(t / 2) squared is 2 / (1 + cos t). Of blades, whose faces are all but back to back, the sum
-            // is largely the cosine's rounding, half a unit: without that, what is left is too small and nothing is
-            // left out wrongly.
+            // 1 / cos(t / 2) squared is 2 / (1 + cos t). For blades, whose faces are nearly back to back, the sum is
+            // largely the cosine's rounding, half a unit. With that subtracted it is too small if anything, and nothing
+            // is left out wrongly.
             let opening = 1.0 + cosine - f32::EPSILON / 2.0;
             let does_rise = is_inside & (2.001 * higher * higher > square * opening);
             *open = u32::from((higher > least) | does_rise);

@@ -1,26 +1,27 @@
-//! A proof, in some thirty products, that an axis is the best of all: no other is looked at.
+//! A proof, in some thirty products, that an axis is the best of all, without evaluating any other.
 //!
-//! Two solids overlap by the distance of the origin from the surface of their difference M = A - B, and the axis of
-//! a face or of two edges is the best one exactly when the facet of M that it belongs to is nearest.
+//! The penetration depth of two solids is the distance of the origin from the surface of their difference M = A - B.
+//! The axis of a face or of two edges is the best one exactly when the facet of M that it belongs to is the nearest.
 //!
 //! ```text
-//! T      the facet: a face of A less B's furthest vertex, edge or face; or B's; or the parallelogram of two edges; it lies at
-//!        depth d
-//! disc   about the foot of the origin on T, of radius p: M reaches at least d cos t + p sin t in a direction at angle t
-//!        to the axis, which is d or more as long as tan (t / 2) <= p / d
-//! ball   about the difference D of the centres, of radius r = both inner radii: M reaches at least D.n + r along n; or
-//!        about one of what is left when both centres are moved along the arms inside their solids
+//! T      the facet, at depth d: a face of A less B's deepest vertex, edge or face; a face of B likewise; or the
+//!        parallelogram of two edges
+//! disc   about the foot of the origin on T, of radius p: in a direction at angle t to the axis, M reaches at least
+//!        d cos t + p sin t, which is d or more as long as tan (t / 2) <= p / d
+//! ball   about the difference D of the centres, of radius r = the sum of both inner radii: M reaches at least D.n + r
+//!        along n; or about the difference of two points to which the centres move along the arms inside their solids
 //! proof  the ball reaches d in every direction in which the disc does not
 //! ```
-//! Then the ball of radius d about the origin lies inside M, which it touches at the foot. Of pairs that overlap by
-//! little next to their faces, which is most of them, nearly all are settled so; where last frame's axis is still
-//! the best, nothing but that axis is ever asked for. The idea is that of an expanding polytope's last step (van
-//! den Bergen, "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope
-//! that needs no expanding. Where the ball does not tell, single vertices of M do (`cover`).
+//! Then the ball of radius d about the origin lies inside M, and touches its surface at the foot. Nearly all pairs
+//! whose depth is small next to their faces, which is most pairs, are proved this way; where last frame's axis is still
+//! the best, no other axis is ever evaluated. The idea is that of an expanding polytope's last step (van den Bergen,
+//! "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope that needs no
+//! expanding. Where the ball does not suffice, single vertices of M may (`cover`).
 //!
-//! Of what is long and thin the ball in the middle covers little, but there are others along it; and of what stands
-//! upright beside it, whole edges are furthest. A frame of a crowd, 970 pairs of limbs and trunks: 430 came to all
-//! axes, now 116; 290 to the iteration of distance, now 110; 1.34 to 1.46 times as fast (AMD EPYC, Zen 4, 2026-11-23).
+//! In long, thin solids the ball in the middle covers little, but there are others along the arm; and between solids
+//! that stand upright side by side, whole edges are furthest (`level`). A frame of a crowd, 970 pairs of limbs and
+//! trunks: 430 needed all axes, now 116; 290 the distance iteration, now 110; 1.34 to 1.46 times as fast (AMD EPYC, Zen
+//! 4, 2026-11-23).
 
 use super::super::solid::Solid;
 use super::cover::{Cover, Facet, cover};
@@ -32,16 +33,16 @@ use asunder_geometry::tolerance::ARM_SHARE;
 
 /// What is known of an axis along which two solids overlap.
 pub(super) enum Near {
-    /// It is the best there is, its own rounding apart, and may show too little by so much more.
+    /// It is the best one; besides its own rounding, it may show too little by this much.
     Nearest(f64),
-    /// Along this unit direction they overlap by less, or too close to call.
+    /// Along this unit direction they overlap less deeply, or too close to call.
     Beaten(DVec3),
     Open,
 }
 
 /// Whether an axis along which two solids overlap is the best there is.
 ///
-/// `deepest` is the other solid's furthest vertex against a face; for edges it means nothing.
+/// `deepest` is the other solid's deepest vertex against a face; for edges it means nothing.
 pub(super) fn judge((a, b): (&Solid, &Solid), axis: &Axis, deepest: usize, precision: &Precision) -> Near {
     let doubt = precision.doubt_of_depth();
     let depth = -axis.separation;
@@ -64,9 +65,8 @@ pub(super) fn judge((a, b): (&Solid, &Solid), axis: &Axis, deepest: usize, preci
             let edges @ [(from_a, to_a), (from_b, to_b)] = [a.edge(edge_a), b.edge(edge_b)];
             let along = |point: DVec3| axis.normal.dot(point);
             let lowest = along(from_a).min(along(to_a)) - along(from_b).max(along(to_b));
-            // Edges that are named by a stale hint need not be where the solids reach furthest; and the axis of
-            // edges at a small angle is beside its place by so much that not all four corners lie in one plane
-            // across it.
+            // Edges that are named by a stale hint need not lie on the supporting planes; and the axis of edges at a
+            // small angle is so far off that not all four corners lie in one plane perpendicular to it.
             let is_facet = lowest >= depth - 0.5 * doubt;
             if is_facet { in_parallelogram(edges, axis.normal) } else { f64::NEG_INFINITY }
         }
@@ -102,7 +102,7 @@ pub(crate) fn in_polygon(mut corners: impl Iterator<Item = DVec3>, outward: DVec
         let inwards = outward.cross(to - from);
         let inside = inwards.dot(point - from);
         let scale = 1.0 / inwards.length_squared();
-        // The square keeps the roots out of the loop. What is no number is no proof.
+        // Squared, to keep roots out of the loop. NaN proves nothing.
         if !(inside > 0.0 && scale.is_finite()) {
             return f64::NEG_INFINITY;
         }
@@ -128,7 +128,8 @@ fn in_parallelogram([(from_a, to_a), (from_b, to_b)]: [(DVec3, DVec3); 2], norma
 }
 
 /// Whether a ball inside both solids' difference reaches `depth` in every direction in which a disc of radius `disc`
-/// does not: the one about the difference of their centres, or one from where the arms lead straight behind the disc.
+/// does not: the ball about the difference of their centres, or one moved along the arms until it lies as straight
+/// behind the disc as they allow.
 fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64)) -> bool {
     let mut center = a.center() - b.center();
     if does_cover((center, a.inner_radius + b.inner_radius), normal, (depth, disc)) {
@@ -142,12 +143,12 @@ fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64
             center -= arm * (away.dot(across) / square).clamp(-1.0, 1.0);
         }
     }
-    // Of what has no ball, below zero.
+    // Negative where a solid holds no ball.
     let share = |radius: f64| radius.min(ARM_SHARE * radius);
     does_cover((center, share(a.inner_radius) + share(b.inner_radius)), normal, (depth, disc))
 }
 
-/// The same of one ball.
+/// [`does_ball_cover`] for one ball.
 fn does_cover((center, radius): (DVec3, f64), normal: DVec3, (depth, disc): (f64, f64)) -> bool {
     let spare = radius - depth;
     let along = center.dot(normal);
@@ -155,14 +156,14 @@ fn does_cover((center, radius): (DVec3, f64), normal: DVec3, (depth, disc): (f64
     if spare >= 0.0 && spare * spare >= square {
         return true;
     }
-    // Not from both squares: of a centre straight behind the facet, their difference is rounding, and its root is
-    // far more.
+    // Not the root of a difference of squares: for a centre straight behind the facet that difference is rounding, and
+    // its root far more.
     let across = (center - normal * along).length();
-    // The angle up to which the disc reaches, by the tangent of its half.
+    // The angle up to which the disc reaches the depth, by the tangent of its half.
     let tangent = disc / depth;
     let scale = 1.0 / (1.0 + tangent * tangent);
     let (sine, cosine) = (2.0 * tangent * scale, (1.0 - tangent * tangent) * scale);
-    // From there on the ball's reach only grows, if the direction is past that of its centre's opposite.
+    // Beyond that angle the ball's reach only grows, if the direction is past the opposite of its centre.
     let is_past = sine * along + cosine * across <= 0.0;
     is_past && along * cosine - across * sine + spare >= 0.0
 }

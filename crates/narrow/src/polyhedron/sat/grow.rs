@@ -1,31 +1,35 @@
-//! The nearest facet of the difference by a polytope inside it, which grows where it is nearest: for solids with so
-//! many edges that their pairs take longer.
+//! The nearest facet of the difference by an expanding polytope inside it, for solids with so many edges that testing
+//! their pairs takes longer.
 //!
 //! ```text
-//! start    four points of M = A - B around the origin                                               (portal)
-//! repeat:  the facet of the polytope that is nearest; the vertex of M that is furthest along its normal m
-//!          nearest enough, or no vertex beyond it: done
-//!          take away every facet that the vertex is beyond, and join what was around them to it
+//! start    four points of M = A - B around the origin                                                         (portal)
+//! repeat:  take the facet of the polytope nearest to the origin, with normal m, and the vertex of M furthest along m
+//!          if the facet is near enough to the known depth, or no vertex lies beyond it: done
+//!          remove every facet that the vertex is beyond, and connect the rim of the hole to the vertex
 //! ```
 //! van den Bergen, "Proximity queries and penetration depth computation on 3D game objects" (GDC 2001). There the
-//! facets' planes are believed. Here nothing is that rounding could spoil:
+//! facets' planes are trusted. Here nothing is trusted that rounding could spoil:
 //!
 //! ```text
-//! bound    of corners p, q, r and *any* unit vector m, every point of the triangle is at least min(m.p, m.q, m.r) away:
-//!          m may be the normal of a sliver, and be off by any angle
-//! around   the surface goes on winding around the origin: what is put in place of facets has the same edges, and the
-//!          tetrahedra between, of a facet and the new vertex, are all on one side of a plane that the origin is not on
-//! so       each direction meets a triangle, no nearer than its bound, and M reaches no less far there
+//! bound    for corners p, q, r and *any* unit vector m, every point of the triangle is at least min(m.p, m.q, m.r)
+//!          away: m may be the normal of a sliver, and be off by any angle
+//! around   the surface goes on winding around the origin: the facets that are added have the same rim as those they
+//!          replace, and each tetrahedron between, of an old facet and the new vertex, lies on one side of a plane and
+//!          the origin on the other
+//! so       each direction meets a triangle, no nearer than its bound, and M reaches at least as far there
 //! ```
-//! Neither asks for a convex polytope, nor for one without folds.
+//! Neither requires the polytope to be convex, or free of folds.
 //!
 //! Prisms take 22 to 34 vertices, however many sides they have: two of 24 sides, deep in each other, 24 us to 8, two of
-//! 128 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried: hulls of random vertices, of whose edges spheres leave one in
-//! seven to one in seventy (32 vertices 8.4 us to 16, 256 36 to 72); cells and footballs, which have as many edges for
-//! their faces but no large one, and half of which run out of vertices (1.2 to 3.4 times as long); globes of 256, all
-//! of whose directions are nearly as good (31 to 135); in place of a rule for shapes, one for how many edges spheres
-//! leave, asked on the way (prisms of 128 sides 28 us, since it is the asking that takes long; cones a little less than
-//! by all pairs).
+//! 128 sides 200 to 18 (AMD EPYC, Zen 4, 2026-11-26). Tried:
+//!
+//! - hulls of random vertices, of whose edges the spheres leave one in seven to one in seventy: 32 vertices 8.4 us to
+//!   16, 256 vertices 36 to 72;
+//! - cells and footballs, which have as many edges for their number of faces but no large face, and half of which run
+//!   out of vertices: 1.2 to 3.4 times as long;
+//! - globes of 256 vertices, all of whose directions are nearly as good: 31 us to 135;
+//! - in place of a rule for shapes, one for how many edges the spheres leave, evaluated on the way: prisms of 128 sides
+//!   28 us, since it is those spheres that take long; cones a little less than by all pairs.
 
 use super::super::portal;
 use super::super::solid::Solid;
@@ -34,20 +38,20 @@ use crate::precision::Precision;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// Vertices at most. Of a surface without folds there are twice as many facets.
+/// Most vertices. A surface without folds has twice as many facets.
 const MOST_VERTICES: usize = 64;
 
 const MOST_FACETS: usize = 2 * MOST_VERTICES;
 
-/// Edges at most around what a vertex is beyond.
+/// Most edges on the rim of the facets that a vertex is beyond.
 const MOST_EDGES: usize = 64;
 
 /// What the polytope has shown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bound {
-    /// No direction shows a lesser depth than that, rounding of a projection apart, in metres.
+    /// No direction shows a smaller depth, apart from the rounding of a projection, in metres.
     pub(super) at_least: f64,
-    /// What shows hardly more; nothing where the depth that was known does.
+    /// A facet that shows hardly more depth; `None` where the known depth is hardly more.
     pub(super) met: Option<Met>,
 }
 
@@ -56,29 +60,29 @@ pub(super) struct Bound {
 pub(super) struct Met {
     /// A unit vector from A to B.
     pub(super) direction: DVec3,
-    /// Of which vertices of A and of B its corners are the difference, where that is known.
+    /// The vertices of A and of B whose differences are its corners, where known.
     pub(super) corners: Option<[[u16; 2]; 3]>,
 }
 
-/// A closed surface around the origin, within the difference. What is gone over is in lists of its own.
+/// A closed surface around the origin, inside the difference. What loops run over is in lists of its own.
 struct Surface {
     points: ArrayVec<DVec3, MOST_VERTICES>,
-    /// Of which vertices of A and of B each point is the difference; nothing of those that the surface began with.
+    /// The vertices of A and of B whose difference each point is; `None` for the points that the surface began with.
     vertices: ArrayVec<Option<[u16; 2]>, MOST_VERTICES>,
-    /// Of each facet, counter-clockwise as seen from outside.
+    /// The corners of each facet, counter-clockwise as seen from outside.
     corners: ArrayVec<[u8; 3], MOST_FACETS>,
-    /// A unit vector.
+    /// The unit normal of each facet.
     normals: ArrayVec<DVec3, MOST_FACETS>,
-    /// How far the corner reaches along it that reaches least far.
+    /// The least projection of each facet's corners on its normal.
     least: ArrayVec<f64, MOST_FACETS>,
-    /// What every facet must come to, so that the origin is on no plane, in metres.
+    /// What `least` must exceed for every facet, so that the origin is on no plane, in metres.
     doubt: f64,
 }
 
-/// How deep solids overlap of which a direction shows `known_depth` (infinite where none is known), up to a slack;
-/// nothing where rounding is in the way, or too many vertices would be needed.
+/// How deep solids overlap, up to a slack, if some direction shows `known_depth` (infinite where none is known); `None`
+/// where rounding is in the way, or too many vertices would be needed.
 ///
-/// The slack is finite, and more than the rounding of a projection: each vertex takes a facet away.
+/// The slack is finite, and more than the rounding of a projection, so that each vertex removes a facet.
 #[inline(never)]
 pub(super) fn grow(
     (a, b): (&Solid, &Solid),
@@ -89,7 +93,7 @@ pub(super) fn grow(
     let mut surface = Surface::new(precision.projection());
     surface.begin(corners)?;
     let point = |[of_a, of_b]: [usize; 2]| a.point(of_a) - b.point(of_b);
-    // With its last vertex the surface is not looked at any more.
+    // Once the last vertex is taken, the surface is not examined any more.
     while !surface.points.is_full() {
         let place = surface.nearest_facet()?;
         let (direction, at_least) = (surface.normals[place], surface.least[place]);
@@ -113,7 +117,7 @@ pub(super) fn grow(
 }
 
 impl Surface {
-    /// Without a facet.
+    /// A surface without facets.
     #[inline(always)]
     fn new(doubt: f64) -> Self {
         Self {
@@ -126,13 +130,13 @@ impl Surface {
         }
     }
 
-    /// Of which vertices of A and of B a facet's corners are the difference, if they are.
+    /// The vertices of A and of B whose differences are a facet's corners, if all are known.
     fn vertices_of(&self, facet: usize) -> Option<[[u16; 2]; 3]> {
         let [p, q, r] = self.corners[facet].map(|corner| self.vertices[usize::from(corner)]);
         Some([p?, q?, r?])
     }
 
-    /// A tetrahedron around the origin.
+    /// Starts with a tetrahedron around the origin.
     fn begin(&mut self, corners: [DVec3; 4]) -> Option<()> {
         self.points.extend(corners);
         self.vertices.extend([None; 4]);
@@ -150,12 +154,12 @@ impl Surface {
         self.least.iter().position(|&of| of == least)
     }
 
-    /// A facet; nothing where it is not beyond rounding from the origin.
+    /// Adds a facet; `None` where it is no further from the origin than rounding.
     fn add(&mut self, corners: [u8; 3]) -> Option<()> {
         let [p, q, r] = corners.map(|corner| self.points[usize::from(corner)]);
         let normal = (q - p).cross(r - p).try_normalize()?;
         let least = normal.dot(p).min(normal.dot(q)).min(normal.dot(r));
-        // What is not a number is not beyond.
+        // NaN is not beyond.
         let is_beyond = least > self.doubt;
         if !is_beyond {
             return None;
@@ -166,7 +170,7 @@ impl Surface {
         Some(())
     }
 
-    /// Takes a point more, in place of all facets that it is beyond.
+    /// Adds a point, in place of all facets that it is beyond.
     fn take(&mut self, point: DVec3, vertices: [u16; 2]) -> Option<()> {
         count_steps(self.corners.len() / 4);
         let mut beyond = ArrayVec::<u16, MOST_FACETS>::new_const();
@@ -176,11 +180,11 @@ impl Surface {
             }
         }
         let mut around = ArrayVec::<[u8; 2], MOST_EDGES>::new_const();
-        // From the last on: what takes its place is not to be taken away.
+        // From the last on, so that the facet that is swapped into the gap is never one still to be removed.
         for &i in beyond.iter().rev() {
             let [p, q, r] = self.remove(i.into());
             for [from, to] in [[p, q], [q, r], [r, p]] {
-                // What two of them share is inside.
+                // An edge that two of them share is inside the hole.
                 match around.iter().position(|&edge| edge == [to, from]) {
                     Some(place) => drop(around.swap_remove(place)),
                     None => around.try_push([from, to]).ok()?,
@@ -205,14 +209,14 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// Also of needles, whose normals are rounding; and those with the origin behind them are refused.
+    /// Includes needles, whose normals are rounding; triangles with the origin behind them are refused.
     #[test]
     fn no_point_of_a_facet_is_nearer_than_its_bound() {
         let mut random = Random(0x9E6C_63D0_676A_9A99);
         let (mut taken, mut refused, mut needles) = (0, 0, 0);
         for case in 0..20_000 {
             let [p, q, aside] = [0; 3].map(|_| random.vector().as_dvec3());
-            // About on the line of the two others.
+            // Nearly on the line through the other two.
             let thin = [1.0, 1e-6, 1e-13, 1e-16][case % 4];
             let r = p.lerp(q, 2.0 * f64::from(random.number())) + aside * thin;
             let mut surface = Surface::new(1e-15);

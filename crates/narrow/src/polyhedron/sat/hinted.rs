@@ -1,4 +1,5 @@
-//! What the last frame learnt: the axis that was the best, tried first, and what contact points were made on.
+//! What last frame's hint holds: the axis that was the best, which is tried first, and the features that contact points
+//! were made on.
 
 use super::super::solid::Solid;
 use super::facet::{Near, judge};
@@ -7,31 +8,31 @@ use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
 
-/// An axis that a hint names, or a walk from one comes to, evaluated.
+/// An evaluated axis: one that a hint names, or that a walk came to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hinted {
     pub(crate) axis: Axis,
-    /// The vertex of the other solid that is furthest against the face.
+    /// The other solid's deepest vertex against the face.
     pub(super) deepest: usize,
-    /// How much less than the truth the axis may show.
+    /// By how much the axis may show too little.
     pub(super) doubt: f64,
 }
 
 /// What is known of an evaluated axis.
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
 pub(crate) enum Judged {
-    /// It is the best, and is all that the axes of these solids come to.
+    /// It is the best; these axes hold it alone.
     Best(Axes),
-    /// It is not, or hardly: along this unit direction the solids overlap by less, or too close to call.
+    /// It is not, or hardly: along this unit direction the solids overlap less deeply, or too close to call.
     Beaten(DVec3),
     Open,
 }
 
 impl Hinted {
-    /// Nothing where the hint names no axis that this pair has.
+    /// `None` where the hint names no axis that this pair has.
     pub(crate) fn new((a, b): (&Solid, &Solid), hint: Hint, precision: &Precision) -> Option<Self> {
         let of = match axis_in(hint)? {
-            // Of other shapes, it may be the half of an edge that names none.
+            // A hint from other shapes may name a half-edge that does not stand for its edge here.
             AxisOf::Edges(edge_a, edge_b) if a.has_edge(edge_a as u32) && b.has_edge(edge_b as u32) => {
                 AxisOf::Edges(a.topology.edge_of(edge_a), b.topology.edge_of(edge_b))
             }
@@ -40,7 +41,7 @@ impl Hinted {
         Self::at((a, b), of, precision)
     }
 
-    /// Nothing where this pair has no such axis.
+    /// `None` where this pair has no such axis.
     pub(super) fn at((a, b): (&Solid, &Solid), of: AxisOf, precision: &Precision) -> Option<Self> {
         let (normal, doubt) = match of {
             AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
@@ -64,7 +65,7 @@ impl Hinted {
         Some(Self { axis, deepest: deepest.vertex, doubt })
     }
 
-    /// Whether it is the best axis of solids that overlap along it, and so overlap.
+    /// Whether it is the best axis of solids that overlap along it. If so, they do overlap.
     pub(crate) fn judged(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Judged {
         match judge((a, b), &self.axis, self.deepest, precision) {
             Near::Nearest(uneven) => {
@@ -79,12 +80,12 @@ impl Hinted {
     }
 }
 
-/// The hint that leads back to an axis.
+/// The hint that names an axis.
 pub(crate) fn hint_of(axis: &Axis) -> Hint {
     hint_to(axis.of)
 }
 
-/// The hint that leads back to what an axis is the axis of.
+/// The hint that names the features of an axis.
 #[inline]
 pub(crate) fn hint_to(of: AxisOf) -> Hint {
     Hint::axis(match of {
@@ -94,7 +95,7 @@ pub(crate) fn hint_to(of: AxisOf) -> Hint {
     })
 }
 
-/// What a hint says that the last axis was the axis of: of these shapes or of others.
+/// The features that a hint names as those of last frame's axis; the hint may come from other shapes.
 #[inline]
 fn axis_in(hint: Hint) -> Option<AxisOf> {
     let features = hint.features()?;
@@ -106,7 +107,7 @@ fn axis_in(hint: Hint) -> Option<AxisOf> {
     }
 }
 
-/// What a hint says that the last contact points were made on: of these shapes or of others.
+/// The features that a hint says last frame's contact points were made on; the hint may come from other shapes.
 #[inline]
 pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
     match hint.points_on() {
@@ -116,7 +117,7 @@ pub(crate) fn last_of(hint: Hint) -> Option<AxisOf> {
     }
 }
 
-/// The hint of an axis that contact points were not made on, but on another.
+/// A hint that also names the features that contact points were made on, where those are not its axis' own.
 pub(crate) fn hint_with(hint: Hint, points_on: AxisOf) -> Hint {
     if axis_in(hint) == Some(points_on) {
         return hint;

@@ -1,21 +1,21 @@
-//! What of a solid reaches furthest in a direction, where that is more than a vertex: of what stands upright beside
-//! what stands upright, whole edges; of what lies on something, whole faces.
+//! The feature of a solid that is furthest in a direction, where that is more than a vertex: whole edges between bodies
+//! that stand upright side by side, whole faces of bodies that lie on something.
 //!
-//! Which of its vertices is told to be the furthest is rounding's choice there, and that one may lie beyond the end of
-//! the face that it is held against, though most of the edge is over the face.
+//! Which of its vertices counts as the furthest is then chosen by rounding, and that vertex may lie beyond the end of
+//! the face that it is tested against, though most of the edge is over the face.
 
 use super::super::solid::Solid;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::MAX_HULL_VERTICES;
 
-/// The most corners of a face that is asked for; of others, an edge.
+/// Most corners of a face that is taken as a whole; of larger faces, an edge is taken.
 const MOST: usize = 8;
 
-/// Corners of both faces at most where one is cut by the other.
+/// Most corners of both faces together where one is clipped by the other.
 const MOST_CUT: usize = 24;
 
-/// The furthest edge (two vertices) or face (its vertices, in order) of a solid against a direction; empty where a
+/// The deepest edge (two vertices) or face (its vertices, in order) of a solid against a direction; empty where a
 /// vertex is alone.
 pub(super) struct Level {
     vertices: ArrayVec<usize, MOST>,
@@ -24,8 +24,8 @@ pub(super) struct Level {
 impl Level {
     pub(super) const NONE: Self = Self { vertices: ArrayVec::new_const() };
 
-    /// Around the furthest vertex against an outward direction, vertices that are further by no more than `slack`
-    /// metres.
+    /// The feature around the deepest vertex against an outward direction: vertices that are higher by no more than
+    /// `slack` metres.
     #[inline]
     pub(super) fn around(solid: &Solid, deepest: usize, outward: DVec3, slack: f64) -> Self {
         let mut vertices = ArrayVec::new_const();
@@ -41,7 +41,7 @@ impl Level {
             }
             let face = solid.topology.half_edges()[usize::from(half_edge)].face as usize;
             let around = solid.topology.face_vertices(face);
-            // Of what is flat, the side that looks there.
+            // Of a flat solid, only the side that faces there.
             if !solid.is_slender()
                 && around.len() <= MOST
                 && around.clone().all(|vertex| place(vertex) <= most)
@@ -73,14 +73,14 @@ impl Level {
         self.vertices.iter().map(|&vertex| solid.point(vertex))
     }
 
-    /// How far inside a face less this feature the origin is, as seen along the face's outward normal; below zero where
-    /// it is not.
+    /// How far the origin is inside the difference of a face and this feature, as seen along the face's outward normal;
+    /// negative where it is outside.
     ///
-    /// The sides of the difference of two polygons are those of the one and of the other, each with the other's vertex
-    /// that is furthest out there.
+    /// The sides of the difference of two polygons are the sides of both, each with the other polygon's vertex that is
+    /// furthest out across it.
     pub(super) fn in_difference(&self, (solid, face): (&Solid, usize), outward: DVec3, other: &Solid) -> f64 {
-        // Each is turned once, and asked for once a side of the other.
-        // Filled where they stay: collected, all the room that there is would be copied.
+        // Each point is transformed once, and used once a side of the other polygon. Filled in place: collecting would
+        // copy their full capacity.
         let mut corners = ArrayVec::<DVec3, MAX_HULL_VERTICES>::new_const();
         corners.extend(solid.topology.face_vertices(face).map(|vertex| solid.point(vertex)));
         let mut own = ArrayVec::<DVec3, MOST>::new_const();
@@ -101,7 +101,8 @@ impl Level {
         if least > 0.0 && least.is_finite() { least.sqrt() } else { f64::NEG_INFINITY }
     }
 
-    /// The middle of what of this feature lies over a face, as seen along the face's outward normal, if any does.
+    /// The middle of the part of this feature that lies over a face, as seen along the face's outward normal, if any
+    /// does.
     ///
     /// Sutherland and Hodgman, "Reentrant polygon clipping" (1974).
     pub(super) fn middle_over(
@@ -118,7 +119,7 @@ impl Level {
         left.extend(self.points(other));
         let mut whole = ArrayVec::new_const();
         for (from, inwards) in sides(corners.map(|vertex| solid.point(vertex)), outward) {
-            // Most sides cut nothing away.
+            // Most sides clip nothing.
             if left.iter().all(|&point| inwards.dot(point - from) >= 0.0) {
                 continue;
             }
@@ -142,7 +143,8 @@ impl Level {
     }
 }
 
-/// The sides of a polygon: a corner, and the way inwards there, as long as the side. Of two corners there and back.
+/// The sides of a polygon: a corner and the inward direction there, as long as the side. Two corners have two sides,
+/// there and back.
 fn sides(
     corners: impl Iterator<Item = DVec3> + Clone,
     outward: DVec3,
@@ -152,7 +154,7 @@ fn sides(
     corners.zip(next).map(move |(from, to)| (from, outward.cross(to - from)))
 }
 
-/// The square of how far something is inside a side; below zero where it is not, or the side has no length.
+/// The square of how far something is inside a side; -inf where it is outside, or the side has no length.
 fn share_of(inside: f64, inwards: DVec3) -> f64 {
     let square = inside * inside / inwards.length_squared();
     if inside > 0.0 && square.is_finite() { square } else { f64::NEG_INFINITY }

@@ -1,4 +1,4 @@
-//! Pruning by arcs must not lose the axis that decides.
+//! Pruning by arcs must not lose the best axis.
 
 mod across;
 mod cost;
@@ -44,7 +44,7 @@ impl Random {
         Hull::from_points(&points).unwrap().into()
     }
 
-    /// Random hulls, cubes, prisms, plates, and turned lattices, whose faces were merged.
+    /// Random hulls, cubes, prisms, plates, and rotated lattices, whose faces were merged.
     pub(crate) fn hull(&mut self, kind: u64) -> Shape3 {
         let pose = Pose3::new(Vec3::ZERO, self.turn(0)).unwrap();
         let lattice = |i: i32| Vec3::new((i % 3) as f32, (i / 3 % 3) as f32, (i / 9) as f32) - Vec3::ONE;
@@ -65,8 +65,8 @@ impl Random {
     }
 }
 
-/// Upright prisms and planks, three to ten times as high as wide, turned about the vertical alone; B beside A in a
-/// random direction, somewhere between level with it and just reaching its end.
+/// Upright prisms and planks, three to ten times as high as wide, rotated about the vertical only; B lies beside A in a
+/// random horizontal direction, at any height from level with A to just reaching its end.
 pub(super) fn upright(
     random: &mut Random,
     case: u64,
@@ -74,7 +74,7 @@ pub(super) fn upright(
     let high = [0, 1].map(|_| 1.5 + random.number().abs() * 3.5);
     let mut shape = |sides: u64, high: f32| -> Shape3 {
         let wide = Vec3::new(0.2 + 0.3 * random.number().abs(), 1.0, 0.5);
-        // By a rotation that has no order among the sides: points on a circle, none twice.
+        // By a rotation whose order exceeds the sides: points on a circle, none twice.
         let around = (0..sides.max(3)).scan(Vec3::X, |at, _| {
             let now = *at;
             *at = Quat::from_xyzw(0.0, (2.0 / sides.max(3) as f32).min(0.9), 0.0, 1.0).normalize() * now;
@@ -138,10 +138,10 @@ fn pruned_and_exhaustive_agree_within_the_reported_error() {
             let faces = axes.face_a.separation.max(axes.face_b.separation);
             let exhaustive = faces.max(all_edge_pairs(a, b));
             let pruned = axes.best().separation;
-            // Both project all vertices, on axes that were rounded on different ways.
+            // Both project all vertices, on axes that were rounded differently.
             let rounding = pair.precision.projection();
             assert!(pruned <= exhaustive + rounding, "case {case}: {pruned}, exhaustive {exhaustive}");
-            // In a gap the greatest axis of all need not be one whose arcs cross; there the distance decides.
+            // In a gap the greatest of all axes need not be one whose arcs cross; there the distance decides.
             if exhaustive <= 0.0 {
                 let error = f64::from(pair.precision.of_separation(pruned, axes.short()));
                 assert!(
@@ -207,8 +207,8 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
         let pair = convex(&shape_a, poses[0], &shape_b, poses[1]);
         pair.with_solids(|a, b| {
             for solid in [a, b] {
-                // Any direction, those of faces, where many vertices are equally far but for rounding, and of axes,
-                // where lattices have exact ties.
+                // Any direction; those of faces, where many vertices are equally far up to rounding; and the coordinate
+                // axes, along which lattices have exact ties.
                 let faces = (0..solid.face_count()).map(|face| solid.normal(face));
                 let axes = [DVec3::X, -DVec3::Y, DVec3::Z, random.vector().as_dvec3().normalize()];
                 for direction in faces.chain(axes) {
@@ -216,8 +216,8 @@ fn the_furthest_vertex_by_lanes_is_the_one_found_one_by_one() {
                     assert_eq!(lanes.vertex, definition.vertex, "case {case}");
                     assert_eq!(lanes.reach.to_bits(), definition.reach.to_bits(), "case {case}");
                     assert_eq!(solid.furthest(direction), definition.vertex, "case {case}");
-                    // In f32 alone: a bound that no vertex is beyond, and a vertex that is no further below it than
-                    // told.
+                    // In f32 alone: a bound that no vertex exceeds, and a vertex that is no further below it than
+                    // reported.
                     for length in [1.0, 1e-18, 1e18] {
                         let (rough, excess) = solid.rough_support(direction * length);
                         let (truth, rounding) = (definition.reach * length, 1e-12 * length * 1e3);

@@ -1,24 +1,27 @@
-//! From the axis of one facet of the difference to that of the nearest one, over the edges between them.
+//! A walk from one facet of the difference to the nearest one, over the edges between them.
 //!
-//! Two solids overlap by the distance of the origin from the surface of M = A - B. Last frame's axis belongs to a facet
-//! that is seldom the nearest still, but most often beside it. As long as the foot of the origin lies beside the facet,
-//! the facets over there are nearer:
+//! The penetration depth of two solids is the distance of the origin from the surface of M = A - B. The facet of last
+//! frame's axis is seldom still the nearest, but most often beside it. As long as the foot of the origin lies outside
+//! the facet, the facets on that side are nearer:
 //!
 //! ```text
 //! beside    the side of the facet that the foot lies furthest beyond: an edge of one solid with a vertex of the other
-//! crossing  along the arc of that edge on the Gauss map, to the face beyond it: the first arc of an edge at the vertex that
-//!           it crosses makes an edge pair with it; where there is none, it is that face's turn
-//! judge     behind a facet with the foot inside: is it the nearest of all?                            (facet, cover)
-//!           if a direction beats it, go on from the face there that looks most nearly along it
+//! crossing  follow that edge's arc on the Gauss map to the face beyond it. The first arc that it crosses, of an edge
+//!           at the vertex, makes an edge pair with it: the next facet. Where it crosses none, the face gives the next
+//! judge     once the foot is inside the facet: is it the nearest of all?                              (facet, cover)
+//!           if some direction beats it, go on from the face there whose normal lies most nearly along that direction
 //! ```
-//! Each axis is believed for what all vertices show along it, and each step must show more than the one before, so that
-//! neither hints nor rounding can lead astray or around. Pairs a frame that come to all axes of the test: of hulls that
-//! fall on each other 4, where it was 670; of hulls at rest 5 for 370; of 10,000 boxes and hulls in the air 15 for 450;
-//! of a crowd 16 for
-//! 100. The frames take 0.93, 0.8, 0.9 and 0.98 of the time (AMD EPYC, Zen 4, 2026-11-24).
+//! Each axis is evaluated with all vertices, and each step must show more than the one before, so that neither hints
+//! nor rounding can lead astray or in circles. Pairs a frame that still need the test of all axes, and the frame's
+//! share of its former time (AMD EPYC, Zen 4, 2026-11-24):
 //!
-//! Lin and Canny walk so over the features of both solids in a gap ("A fast algorithm for incremental distance
-//! calculation", ICRA 1991); here it goes over those of their difference, in overlap.
+//! - hulls that fall on each other: 4 pairs, where it was 670; 0.93 of the time;
+//! - hulls at rest: 5 pairs for 370; 0.8;
+//! - 10,000 boxes and hulls in the air: 15 pairs for 450; 0.9;
+//! - a crowd: 16 pairs for 100; 0.98.
+//!
+//! Lin and Canny walk in this way over the features of two solids with a gap between them ("A fast algorithm for
+//! incremental distance calculation", ICRA 1991); here the walk goes over those of their difference, in overlap.
 
 use super::super::solid::Solid;
 use super::grow::Met;
@@ -27,20 +30,20 @@ use super::{Axes, Axis, AxisOf};
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
 
-/// Facets of one walk at most. Bodies turn by little in a frame: one or two.
+/// Most facets of one walk. Bodies rotate by little in a frame: one or two.
 const MOST_STEPS: usize = 8;
 
-/// Walks at most: each begins at what beat the end of the one before.
+/// Most walks: each starts from the direction that beat the end of the one before.
 const MOST_WALKS: usize = 4;
 
-/// What a walk came to.
+/// How a walk ended.
 #[allow(clippy::large_enum_variant, reason = "as Probe")]
 pub(crate) enum Ended {
     /// The best axis there is.
     Best(Axes),
     /// An axis that shows no overlap, or less than rounding.
     Apart(Axis),
-    /// Nothing but an axis that shows so much.
+    /// Nothing is proved; the best axis met shows this separation.
     Open(f64),
 }
 
@@ -48,7 +51,7 @@ pub(crate) enum Ended {
 enum Foot {
     Inside,
     Beyond(Side),
-    /// Nowhere: the edges that the axis is named after are not where the solids reach furthest, or have no arcs.
+    /// Nowhere: the edges that the axis is named after do not lie on its supporting planes, or have no arcs.
     Astray,
 }
 
@@ -61,7 +64,8 @@ struct Side {
 }
 
 impl Hinted {
-    /// The best axis of solids that seem to overlap, from this one on. Cost: a few support searches a step.
+    /// Walks to the best axis of solids that seem to overlap, starting from this one. Cost: a few support searches a
+    /// step.
     pub(crate) fn walk(&self, (a, b): (&Solid, &Solid), precision: &Precision) -> Ended {
         let (mut at, mut most) = (*self, self.axis.separation);
         let least = -precision.doubt_of_depth();
@@ -78,7 +82,7 @@ impl Hinted {
                 Judged::Open => {}
             }
             let Some(next) = at.walked((a, b), precision) else { break };
-            // Neither where it was, nor where it came from.
+            // Neither the same axis again, nor an earlier one.
             let is_further = next.axis.separation > most;
             if !is_further {
                 break;
@@ -88,7 +92,7 @@ impl Hinted {
         Ended::Open(most)
     }
 
-    /// The end of one walk, where the foot of the origin is inside, or nothing overlaps; nothing where it leads
+    /// The end of one walk: where the foot of the origin is inside, or the solids do not overlap; `None` where it leads
     /// nowhere.
     fn walked(mut self, (a, b): (&Solid, &Solid), precision: &Precision) -> Option<Self> {
         for step in 0..MOST_STEPS {
@@ -125,8 +129,8 @@ impl Hinted {
     }
 }
 
-/// The facet of the difference that a piece of it belongs to, by what it shows: two edges, by its corners, or what a
-/// walk comes to from the face that looks most nearly as it does.
+/// The facet of the difference that a piece of it belongs to, recognised by what it shows: the two edges of the piece's
+/// corners, or what a walk comes to from the face that faces most nearly the same way.
 pub(super) fn facet_of(
     solids: (&Solid, &Solid),
     piece: &Met,
@@ -142,7 +146,7 @@ pub(super) fn facet_of(
     first.walked(solids, precision).filter(&is_it).or_else(|| Some(first).filter(&is_it))
 }
 
-/// The edges of which three corners are the difference, if they are of two.
+/// The two edges whose difference has the three corners, if there are two.
 fn edges_of((a, b): (&Solid, &Solid), corners: [[u16; 2]; 3]) -> Option<AxisOf> {
     let ends = |which: usize| {
         let [p, q, r] = corners.map(|corner| corner[which]);
@@ -154,7 +158,7 @@ fn edges_of((a, b): (&Solid, &Solid), corners: [[u16; 2]; 3]) -> Option<AxisOf> 
     Some(AxisOf::Edges(a.edge_between(from_a, to_a)?, b.edge_between(from_b, to_b)?))
 }
 
-/// The face that looks most nearly along a direction, of those at the vertices that are furthest along it.
+/// The face whose normal lies most nearly along a direction, of those at both support vertices.
 fn face_towards((a, b): (&Solid, &Solid), direction: DVec3, precision: &Precision) -> Option<Hinted> {
     let (mut most, mut best) = (f64::NEG_INFINITY, None);
     for (is_of_a, solid, outward) in [(true, a, direction), (false, b, -direction)] {
@@ -173,7 +177,7 @@ fn face_towards((a, b): (&Solid, &Solid), direction: DVec3, precision: &Precisio
     Hinted::at((a, b), best?, precision)
 }
 
-/// The other's furthest vertex against a face, as seen along the face's outward normal.
+/// Where the other solid's deepest vertex lies against a face, as seen along the face's outward normal.
 fn foot_on_face(
     (solid, face): (&Solid, usize),
     outward: DVec3,
@@ -210,7 +214,7 @@ fn foot_on_edges(
         return Foot::Astray;
     }
     let area = axis.normal.dot(along_a.cross(along_b));
-    // How far out of an edge: its end, and the square of how far beyond, with its sign.
+    // The end of an edge that the crossing is beyond, and how far, squared with its sign.
     let out = |other: DVec3, along: DVec3, (from, to): (usize, usize)| {
         let share = axis.normal.dot(between.cross(other)) / area;
         let (out, end, past) = if share < 0.5 { (-share, from, to) } else { (share - 1.0, to, from) };
@@ -229,7 +233,8 @@ fn foot_on_edges(
 }
 
 impl Side {
-    /// Of an edge with a vertex of the other, where one before it was furthest: to the face where the vertex is.
+    /// The side made of an edge and the end (`vertex`) of the other solid's edge, whose other end is `past`: its arc
+    /// leads to the face against which `vertex` is the deeper one.
     fn along_arc(
         (solid, edge): (&Solid, usize),
         (other, vertex, past): (&Solid, usize, usize),
@@ -247,7 +252,7 @@ impl Side {
         Some(Self { is_of_a, edge, face, vertex })
     }
 
-    /// What lies over there: the face, or the edges whose arcs cross first.
+    /// The facet beyond this side: that of the first pair of edges whose arcs cross, else the face's.
     fn next_of(&self, (a, b): (&Solid, &Solid), normal: DVec3) -> AxisOf {
         if self.is_of_a {
             match self.crossing((a, b), normal) {
@@ -262,7 +267,7 @@ impl Side {
         }
     }
 
-    /// The edge at the vertex whose arc is the first on the way from an outward direction to the face's.
+    /// The edge at the vertex whose arc is crossed first on the way from an outward direction to the face's normal.
     fn crossing(&self, (solid, other): (&Solid, &Solid), outward: DVec3) -> Option<usize> {
         let (here, there) = (other.turned_back(outward), other.turned_back(solid.normal(self.face)));
         let from = other.vertices[self.vertex].as_dvec3();

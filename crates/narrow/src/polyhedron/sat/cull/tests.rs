@@ -1,16 +1,15 @@
-//! Nothing is left out that may show enough by f64, direction by direction; and what may not is mostly left out.
+//! Nothing is left out that may show enough in f64, direction by direction; and most of what may not is left out.
 
 use super::super::tests::{Random, convex};
 use super::*;
 use asunder_geometry::Pose3;
 use asunder_geometry::glam::DVec3;
 
-/// So many directions of an arc are asked for what they show, besides the one along which most is shown.
+/// Directions of an arc that are sampled, besides the one that shows most.
 const SAMPLES: usize = 9;
 
-/// Unit directions along an edge's arc, from one face's normal to the other's, in the shape's own axes; the one
-/// nearest to
-/// `towards` among them, where it is inside.
+/// Unit directions along an edge's arc, from one face's normal to the other's, in the shape's own axes; among them the
+/// one nearest to `towards`, where that is inside.
 fn along_arc(normals: [DVec3; 2], towards: DVec3) -> Vec<DVec3> {
     let [left, right] = normals;
     let share = |i: usize| i as f64 / (SAMPLES - 1) as f64;
@@ -49,12 +48,12 @@ fn reach(solid: &Solid, direction: DVec3) -> f64 {
     solid.vertices.iter().map(|vertex| direction.dot(vertex.as_dvec3())).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// What a sphere that lies inside the other solid leaves possible along a direction.
+/// The most that can be shown along a direction, given a sphere inside the other solid.
 fn most(solid: &Solid, direction: DVec3, (center, radius): (DVec3, f64)) -> f64 {
     direction.dot(center) - reach(solid, direction) - radius
 }
 
-/// Centres anywhere, far out, deep inside, and all but on the surface, with radii to match.
+/// Centres anywhere, far out, deep inside, and nearly on the surface, with radii to match.
 fn spheres(random: &mut Random, solid: &Solid) -> [(DVec3, f64); 4] {
     let vertex = |random: &mut Random| {
         let place = (random.number() + 1.0) * 0.5 * solid.vertices.len() as f32;
@@ -73,13 +72,13 @@ fn spheres(random: &mut Random, solid: &Solid) -> [(DVec3, f64); 4] {
 #[derive(Debug, Default)]
 struct Count {
     asked: usize,
-    /// Left out, though a little more would be shown.
+    /// Left out when asked for a little more than they may show.
     closed: usize,
     /// Those that show most inside the arc, and not at its ends.
     inside: usize,
 }
 
-/// Both lanes at the very separation that is possible, and at a little more.
+/// Tests lanes at exactly the separation that is possible, and at a little more.
 #[test]
 fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
     let mut random = Random(0x8EBC_6AF0_9C88_C6E3);
@@ -91,7 +90,7 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
             let normals = normals_beside(solid);
             for sphere in spheres(&mut random, solid) {
                 let ball = Ball::new(solid, sphere.0.as_vec3(), sphere.1);
-                // f32 cannot tell less: its rounding of the centre, times what an arc makes of it.
+                // f32 cannot resolve less: the rounding of the centre, times what an arc makes of it.
                 let gap = 64.0 * f64::from(ball.doubt) + 1e-6 * sphere.1;
                 for face in 0..solid.face_count() {
                     let possible = most(solid, solid.normal(face), sphere);
@@ -103,7 +102,7 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
                     faces.asked += 1;
                     faces.closed += usize::from(!is_open(possible + gap));
                 }
-                // The middle of a half circle is told by none of its ends.
+                // The ends of a half circle say nothing about its middle.
                 if solid.face_count() <= 2 {
                     continue;
                 }
@@ -138,13 +137,13 @@ fn separation_along(solid: &Solid, other: &Solid, direction: DVec3) -> f64 {
     other.project(turned).0 - solid.project(turned).1
 }
 
-/// Spheres and points together, as the test of all axes asks them.
+/// Spheres and points together, as the full test uses them.
 #[test]
 fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
     let mut random = Random(0x5895_59F1_1A8B_3F7D);
     let (mut faces, mut edges) = (Count::default(), Count::default());
     for case in 0..600_u64 {
-        // Of round hulls so many edges stay open that they are looked at more closely.
+        // Round hulls leave so many edges open that they get the closer look.
         let (shape_a, shape_b) = if case % 3 == 0 {
             (random.round_hull(48), random.round_hull(48))
         } else {
@@ -170,7 +169,7 @@ fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
                     .collect();
                 let best =
                     shown_by_face.iter().chain(&shown_by_edge).copied().fold(f64::NEG_INFINITY, f64::max);
-                // What the whole test would ask for, and less, so that some are just good enough.
+                // What the full test would require, and less, so that some are just good enough.
                 let asked = best - f64::from(random.number().abs()) * 0.1 * pair.precision.size;
                 let mut over = Heights::new_const();
                 let mut sight = Sight::new(solid, other, &mut over);

@@ -1,9 +1,9 @@
-//! What last frame's axis says of a gap is what an iteration says, whatever a hint named.
+//! The gap found from last frame's axis is the one that the iteration finds, whatever a hint named.
 
 use super::super::super::distance::{Reached, Until, Witness, distance};
 use super::*;
 
-/// Hulls, boxes and what stands on corners, face on face, edge on edge, and anyhow, a little apart.
+/// Hulls and boxes, face on face, edge on edge, on corners, and in any other way, a little apart.
 fn placed(random: &mut Random, case: u64) -> ([Shape3; 2], [Pose3; 2]) {
     let mut shape = |kind: u64| match kind % 3 {
         0 => random.round_hull(24),
@@ -19,7 +19,7 @@ fn placed(random: &mut Random, case: u64) -> ([Shape3; 2], [Pose3; 2]) {
     (shapes, posed(out))
 }
 
-/// How far out B is that far from A.
+/// How far out B must be for this gap to A.
 fn parted(shapes: &[Shape3; 2], gap: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f64 {
     let (mut near, mut far) = (0.0, 20.0);
     for _ in 0..60 {
@@ -32,7 +32,7 @@ fn parted(shapes: &[Shape3; 2], gap: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> 
     far
 }
 
-/// What the iteration says.
+/// What the iteration finds.
 fn iterated(pair: &Convex, a: &Solid, b: &Solid) -> Option<Witness> {
     match distance(a, b, DVec3::X, &Until::met(&pair.precision)) {
         Reached::Between(witness) => Some(witness),
@@ -40,12 +40,13 @@ fn iterated(pair: &Convex, a: &Solid, b: &Solid) -> Option<Witness> {
     }
 }
 
-/// Whether what was told of a gap is what the iteration says.
+/// Checks a gap that a hint found against the one that the iteration finds.
 fn check(case: u64, pair: &Convex, (a, b): (&Solid, &Solid), truth: &Witness, witness: &Witness) {
     let rounding = 8.0 * pair.precision.projection() + 2e-12 * pair.precision.size;
     let (low, high) = (truth.at_least - rounding, truth.distance + rounding);
     assert!(witness.at_least <= high && witness.distance >= low, "{case}: {witness:?}, {truth:?}");
-    // Of a merged face the lowest corner may be told, which no more than rounding parts from its plane.
+    // On a merged face the point may lie at the height of its lowest corner, which is off its plane by no more than
+    // rounding.
     assert!(witness.distance - witness.at_least <= rounding, "{case}: {witness:?}");
     let apart = (witness.point_b - witness.point_a).length();
     assert!((apart - witness.distance).abs() <= rounding, "{case}: {witness:?}");
@@ -84,7 +85,7 @@ fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
                 is_told = true;
                 if matches!(of, AxisOf::Edges(..)) { by_edges += 1 } else { by_face += 1 }
             }
-            // From the right direction, and from those of anything else.
+            // From the right direction, and from unrelated ones.
             for direction in [truth.normal, DVec3::X, random.vector().normalize_or(Vec3::X).as_dvec3()] {
                 if let Some((_, witness)) = across_edges((a, b), direction, &pair.precision) {
                     check(&witness);
@@ -127,6 +128,6 @@ fn of_what_stands_upright_a_face_tells_of_the_gap_wherever_its_edges_end() {
             if is_told { by_face += 1 } else { untold += 1 }
         });
     }
-    // Where corners are nearest, as seen from above, no face tells.
+    // Where corners are nearest, as seen from above, no face finds the gap.
     assert!(by_face > 240 && untold < 50, "{by_face}, {untold}");
 }

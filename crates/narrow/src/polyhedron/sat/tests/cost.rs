@@ -5,7 +5,7 @@ use crate::Pair3;
 use crate::counted::steps_of;
 use asunder_geometry::glam::DVec2;
 
-/// Corners of a regular polygon of a power of two, without trigonometry.
+/// Corners of a regular polygon whose number of corners is a power of two, without trigonometry.
 fn regular(count: usize) -> Vec<DVec2> {
     let mut step = DVec2::Y;
     for _ in 2..count.trailing_zeros() {
@@ -41,7 +41,7 @@ fn hull(random: &mut Random, kind: usize) -> Shape3 {
     Hull::from_points(&points).unwrap().into()
 }
 
-/// How B lies: in A's very place, about A's centre, deep inside, lightly, and apart.
+/// How B lies: in A's exact place, about A's centre, deep inside, lightly overlapping, and apart.
 const LIES: [&str; 7] = ["same", "half a step", "turned", "deep", "aligned", "light", "apart"];
 
 fn lie(random: &mut Random, lie: usize) -> [Pose3; 2] {
@@ -61,7 +61,7 @@ fn lie(random: &mut Random, lie: usize) -> [Pose3; 2] {
     [here, there]
 }
 
-/// Steps of every question about a pair.
+/// Steps of every query about a pair.
 fn steps(shapes: [&Shape3; 2], poses: [Pose3; 2]) -> [usize; 4] {
     let pair = Pair3::new(shapes[0], &poses[0], shapes[1], &poses[1]);
     [
@@ -92,8 +92,8 @@ fn twice_the_vertices_cost_less_than_three_times_as_much() {
     }
 }
 
-/// A millisecond at 4 ns a step. Least favourable are two equal prisms in one place, whose 50,000 pairs of edges
-/// that may touch are all even, and double cones, all of whose axes are as good.
+/// A millisecond at 4 ns a step. The worst are two equal prisms in one place, whose 50,000 pairs of edges that may
+/// touch are all even, and double cones, all of whose axes are equally good.
 const MOST: usize = 250_000;
 
 #[test]

@@ -1,11 +1,11 @@
-//! What a growing polytope tells of a depth is true, whatever was known before.
+//! The depth that an expanding polytope finds is true, whatever was known before.
 
 use super::proofs::{exhaustive, placed};
 use super::*;
 use crate::polyhedron::convex::{Asked, Probe, Wanted};
 use crate::polyhedron::sat::grow::{Bound, Met, grow};
 
-/// Rings of so many corners at some heights, and how wide they are there: prisms, frustums, cones, drums.
+/// Rings of `sides` corners at several heights, of different widths: prisms, frustums, cones, drums.
 fn rimmed(random: &mut Random, sides: usize) -> Shape3 {
     let step = Quat::from_xyzw(0.0, (core::f32::consts::PI / sides as f32).min(1.0), 0.0, 1.0).normalize();
     let around: Vec<Vec3> =
@@ -26,10 +26,10 @@ fn shape(random: &mut Random, case: u64) -> Shape3 {
     }
 }
 
-/// Two rimmed hulls, the one deep in the other.
+/// Two rimmed hulls, one deep inside the other.
 fn rimmed_pair(random: &mut Random, sides: [usize; 2], case: u64) -> ([Shape3; 2], [Pose3; 2]) {
     let shapes = sides.map(|sides| rimmed(random, sides));
-    // `placed` puts every fifth there.
+    // `placed` puts every fifth case there.
     let poses = placed(random, [&shapes[0], &shapes[1]], 5 * case);
     (shapes, poses)
 }

@@ -1,4 +1,4 @@
-//! What the proof by a facet calls the best axis is the best of all, whatever a hint named.
+//! The axis that the proof by a facet calls the best is the best of all, whatever a hint named.
 
 use super::*;
 use crate::polyhedron::sat::hinted::Judged;
@@ -29,7 +29,7 @@ pub(super) fn exhaustive(a: &Solid, b: &Solid) -> f64 {
     of_a.chain(of_b).fold(all_edge_pairs(a, b), f64::max)
 }
 
-/// Every axis that a hint can name: all faces, and all pairs of half-edges of every so manieth edge.
+/// Every axis that a hint can name: all faces, and every `stride`-th pair of edges.
 fn every_axis(a: &Solid, b: &Solid, stride: usize) -> Vec<AxisOf> {
     let faces_a = (0..a.face_count()).map(AxisOf::FaceA);
     let faces_b = (0..b.face_count()).map(AxisOf::FaceB);
@@ -43,7 +43,7 @@ fn every_axis(a: &Solid, b: &Solid, stride: usize) -> Vec<AxisOf> {
 /// How deep pairs overlap, as a share of their size.
 const DEPTHS: [f64; 4] = [1e-6, 1e-3, 0.01, 0.02];
 
-/// A pair that overlaps by so much, B somewhere about A, or lies anywhere near.
+/// A pair that overlaps by one of [`DEPTHS`], with B in some direction from A; every fifth lies anywhere near.
 pub(super) fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [Pose3; 2] {
     let turns = [random.turn(case / 2), random.turn(case / 3)];
     let posed =
@@ -57,9 +57,9 @@ pub(super) fn placed(random: &mut Random, shapes: [&Shape3; 2], case: u64) -> [P
     posed(towards * place)
 }
 
-/// How far out B overlaps A by a share of their size.
+/// How far out B must be to overlap A by this share of their size.
 fn sunk(shapes: [&Shape3; 2], deep: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f64 {
-    // Of a convex difference only one place on the ray is as deep, from its deepest on.
+    // In a convex difference only one place along the ray has this depth, beyond the deepest.
     let (mut near, mut far) = (0.0, 20.0);
     for _ in 0..60 {
         let middle = 0.5 * (near + far);
@@ -74,23 +74,24 @@ fn sunk(shapes: [&Shape3; 2], deep: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f
     near
 }
 
-/// What came of axes, each judged and walked from.
+/// What came of the axes, each judged and walked from.
 #[derive(Debug, Default)]
 struct Seen {
     proved: usize,
     edges_proved: usize,
-    /// Pairs that overlap by more than rounding, and those whose best axis is proved to be it.
+    /// Pairs that overlap by more than rounding, and those of them whose best axis was proved to be the best.
     deep: usize,
     deep_proved: usize,
     /// Those of them that overlap by a fiftieth of their size at most.
     shallow: usize,
     shallow_proved: usize,
-    /// Axes that are worse than the best by more than rounding; those that are known to be.
+    /// Axes that are worse than the best by more than rounding, and those of them for which a better direction was
+    /// found.
     stale: usize,
     beaten: usize,
-    /// Those that a walk led from to the best.
+    /// Those from which a walk led to the best.
     led: usize,
-    /// Of pairs that are apart, axes that a walk led from to one that shows it.
+    /// Axes of separated pairs from which a walk led to one that shows it.
     parted: usize,
 }
 
@@ -187,7 +188,7 @@ fn only_the_best_axis_is_proved_and_walks_lead_to_it() {
     assert!(seen.beaten > 500 && seen.led > 100_000, "{seen:?}");
 }
 
-/// Most of their edges are furthest together, and the ball in their middle covers little of them.
+/// Whole edges are furthest most of the time, and the ball in the middle covers little.
 #[test]
 fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_them() {
     let mut random = Random(0x94D0_49BB_1331_11EB);
@@ -198,7 +199,7 @@ fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_
             [(DVec3::ZERO, turns[0]), (at(out), turns[1])].map(|(at, turn)| Pose3::new(at, turn).unwrap())
         };
         let out = sunk([&shape_a, &shape_b], [1e-4, 0.005, 0.01, 0.03][case as usize % 4], posed);
-        // Further in, where B may leave A by its end sooner than to the side.
+        // Further in, where the way out past A's end may be shorter than to the side.
         let [pose_a, pose_b] = posed(out * [1.0, 0.95, 0.9][case as usize % 3]);
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| seen.look((a, b), &pair, every_axis(a, b, 5), case));
@@ -207,7 +208,7 @@ fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_
     assert!(seen.deep > 400 && seen.deep_proved * 100 > seen.deep * 98, "{seen:?}");
 }
 
-/// The axis that the whole test finds best.
+/// The axis that the full test finds best.
 fn own_best(pair: &Convex, a: &Solid, b: &Solid) -> AxisOf {
     pair.all_axes(a, b, f64::NEG_INFINITY).best().of
 }
