@@ -80,7 +80,7 @@ enum Meeting {
 /// - Else the distance is right up to `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance
 ///   from the shape and of its size, over the cosine to the normal. For a hull that includes four times the distance of
 ///   its faces from its vertices ([`planarity_error`](asunder_geometry::Hull::planarity_error)); and if its outer
-///   radius is more than four times its inner radius, all of that grows by as much.
+///   radius is more than four times its inner radius, all of that is multiplied by a quarter of their ratio.
 /// - By as much, before it is divided by the cosine, a ray may have gone into a shape that it is said to miss, or may
 ///   pass beside one that it is said to hit. A thin shape (segment, triangle, flat hull) is hit by a ray that passes
 ///   within rounding.
@@ -88,6 +88,7 @@ enum Meeting {
 /// - On ground it meets the nearest triangle, but one that it starts on comes before any other; of equals, the lowest
 ///   number. No ray slips through between two triangles that share an edge or a vertex. One-sided triangles are passed
 ///   through from behind.
+///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a
 /// few distances, about a microsecond, for rounded shapes, for segments and flat hulls, and beside the faces of hulls
 /// so thin that their faces' roundings matter.
