@@ -107,7 +107,7 @@ mod tests {
         let mut int = |most: i128| i128::from(random.rand_range(0..2 * most as u64 + 1)) - most;
         let (mut beside, mut inside, mut unclear) = (0, 0, 0);
         for round in 0..60_000_u32 {
-            // In steps of 2^-22 of what corners are told in.
+            // In steps of 2^-22 of the corners' unit.
             let step = 1_i128 << 22;
             let far = if round % 7 == 0 { [int(1 << 22) & !7, int(1 << 22) & !7, 0] } else { [0; 3] };
             let size = [1 << 22, 1 << 16, 1 << 10][round as usize % 3];
