@@ -311,9 +311,10 @@ pub struct ContactPoint2 {
 
 /// One point of a manifold in space.
 ///
-/// Except on ground, one anchor is the other, moved along the normal by the separation, bit for bit. With `offset` from
-/// A's position to B's in f64, and `out` the normal times the separation, either `anchor_b` is `anchor_a - offset +
-/// out`, rounded once, at all points of a manifold; or `anchor_a` is `anchor_b + offset - out` at all of them.
+/// Except on ground, one anchor is the other, moved along the normal by the separation, bit for bit. Let `offset` be
+/// from A's position to B's, in f64, and `out` the normal times the separation. Then either `anchor_b` is
+/// `anchor_a - offset + out`, rounded once, at all points of a manifold; or `anchor_a` is `anchor_b + offset - out` at
+/// all of them.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere};
@@ -412,17 +413,17 @@ pub struct Manifold3 {
     ///   frame to frame.
     /// - Where ground bends in steps too small for normals of their own, what stands up between the points counts here
     ///   but in no point: up to 2^-11 of the smaller bounding radius.
-    /// - The depth of a needle-thin triangle along a direction that is rejected (outside the Voronoi region of the feature
-    ///   that it comes from) counts here but in no point either.
+    /// - The depth of a needle-thin triangle along a direction that is rejected (outside the Voronoi region of the
+    ///   feature that it comes from) counts here but in no point either.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
     /// Where they touch. Never empty.
     ///
     /// Of more than four corners, four are chosen: one is as deep as any, within 2^-15 of the smaller bounding
-    /// diameter, and their area is at least 95 % of that of the largest four, if those hold such a corner too. The
-    /// choice is the same from frame to frame for as long as the corners keep their features, unless two corners have
-    /// each other's.
+    /// diameter, and their area is at least 95 % of the largest that any four have, if those include such a corner too.
+    /// The choice is the same from frame to frame for as long as the corners keep their features, unless two corners
+    /// have each other's.
     ///
     /// A point between two faces is named after a vertex (else an edge) of each face that lies within 2^-9 of the
     /// smaller bounding diameter of it; where none does, after what it lies on.

@@ -122,8 +122,8 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
 }
 
 impl March<'_> {
-    /// What an axis shows after so much of the stretch. By rough supports, unless they are not wanted or the gap is
-    /// near what they may be off by: of one far below zero only the corner matters.
+    /// What an axis shows once `done` of the stretch is done. By rough supports, unless those are not wanted or the gap
+    /// is near their error; for a gap far below zero only the corner matters.
     fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
         // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
         let closing = axis.dot(self.drift) + 16.0 * f64::EPSILON * length(self.drift);
@@ -142,9 +142,9 @@ impl March<'_> {
 }
 
 impl Simplex {
-    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has moved
-    /// to. How far that is; nothing where it is among them. All faces are compared where the first that fits is not
-    /// `nearer_than` so many metres, or where no corner came: then the last need not be part of what is nearest.
+    /// Adds a corner, and drops those that do not carry the point nearest to `origin`, to where the origin has moved.
+    /// Returns that point's distance; `None` if the origin is contained. Compares all faces if the first that fits is
+    /// not nearer than `nearer_than`, or if no corner was added: then the last need not be part of the nearest face.
     fn grow(&mut self, corner: Option<Corner>, origin: DVec3, nearer_than: f64) -> Option<f64> {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;
@@ -158,7 +158,7 @@ impl Simplex {
         if corner.is_none() || !is_nearer {
             nearest = nearest_of_all(&seen);
         }
-        // Where they stay: picks ascend.
+        // In place: picks ascend.
         for (to, &from) in nearest.picks[..nearest.count].iter().enumerate() {
             self.corners[to] = self.corners[from];
         }
@@ -169,7 +169,7 @@ impl Simplex {
         (distance > 0.0).then_some(distance)
     }
 
-    /// The points of A and B that carry it.
+    /// The points of A and B at which the simplex' nearest point is.
     fn points(&self, a: &Solid, b: &Solid) -> [DVec3; 2] {
         [(a, 0), (b, 1)].map(|(solid, which)| {
             let mut corners = self
@@ -184,14 +184,15 @@ impl Simplex {
 }
 
 impl Course<'_> {
-    /// Both cores' points that are nearest, as they stand at the start of the stretch, taken to where the impact is.
+    /// The impact at the nearest points of both cores, which are given as at the start of the stretch and moved to the
+    /// impact.
     fn reached(
         &self,
         stretch: &Stretch,
         (done, normal, doubt): (f64, DVec3, f64),
         [on_a, on_b]: [DVec3; 2],
     ) -> Option<End> {
-        // Never beyond, whatever the sum's rounding.
+        // Never too far, whatever the sum's rounding.
         let fraction =
             if done > 0.0 { (stretch.from + done).next_down().min(stretch.to) } else { stretch.from };
         let [start, between] = [stretch.from, fraction].map(|at| self.passage.between_at(at));

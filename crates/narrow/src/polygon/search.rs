@@ -26,9 +26,9 @@
 //! 5. When an axis is projected, the search starts at the edge's own end, and beside a gap at the vertex that faces it:
 //!    2100 ns to 1900, and 5.9 us to 4.55.
 //!
-//! How it grows, in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine, the lower of two runs; rows `grown*` of `compare
-//! -- narrow`, of pairs that circles do not decide; `apart` and `light` lie within 1e-2 of size of touching, `deep` on
-//! one centre, where every edge is as good):
+//! How it grows, in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine, the lower of two runs; rows `grown*` of
+//! `compare -- narrow`, of pairs that circles do not decide; `apart` and `light` lie within 1e-2 of size of touching,
+//! `deep` on one centre, where every edge is as good):
 //!
 //! | vertices | 8 | 16 | 32 | 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 |
 //! |---|---|---|---|---|---|---|---|---|---|---|

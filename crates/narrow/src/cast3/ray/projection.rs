@@ -1,9 +1,9 @@
-//! Triangles as a ray sees them.
+//! Triangles as seen along a ray.
 //!
-//! Projected along the ray into the coordinate plane that it is steepest to, a triangle is crossed by the ray's line
-//! where its projection holds zero: where zero is on the same side of all three edges (Woop, Benthin and Wald,
-//! "Watertight ray/triangle intersection", 2013). In f64, of corners in f32, with a slack that is far above rounding:
-//! what is within it is [`Side::Unclear`].
+//! All is projected along the ray into the coordinate plane that the ray is steepest to, where the ray's line is zero.
+//! The line crosses a triangle if the projection contains zero, which then is on the same side of all three edges
+//! (Woop, Benthin and Wald, "Watertight ray/triangle intersection", 2013). In f64, from corners in f32, with a slack
+//! far above rounding: what is within the slack is [`Side::Unclear`].
 
 use asunder_geometry::glam::{DVec3, Vec3};
 
