@@ -1,13 +1,13 @@
-//! Which parts of a compound a question is about: of few parts all, of many those that the compound's tree finds.
+//! Which parts of a compound a question is about: if there are few, all; if many, those that the compound's tree finds.
 //!
 //! ```text
 //! yes or no             in the tree's order, until a pair overlaps
-//! how far               nearest parts first; of two of many, those that are no further apart than two that are near each other
+//! how far               nearest parts first; of two of many parts, pairs no further apart than two known to be near
 //! contacts              found by the tree, then in the order of the numbers: the same bits as by a loop over all parts
-//! moved bodies          found along the way, in legs where one turns, then as contacts
+//! moved bodies          found along the way (in straight legs, if one turns), then as contacts
 //! rays                  in the order in which boxes are met; of equals, the lowest number
 //! ```
-//! Every pair that is found asks for itself whether it is near, as in a loop: the tree only leaves out what none would
+//! Every pair that is found is still tested for nearness, as in a loop: the tree only leaves out what no test would
 //! take.
 //!
 //! Cubes of so many boxes and balls, a hair from touching; microseconds per question with loops and with trees, `cargo
@@ -26,7 +26,7 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder_geometry::{Aabb2, Aabb3, Compound2, Compound3, Shape2, Shape3, round_down};
 use core::cell::Cell;
 
-/// So many parts, and more, are looked for in the compound's tree.
+/// From this many parts on, the compound's tree is used.
 const MANY: usize = 16;
 
 thread_local! {
@@ -34,7 +34,7 @@ thread_local! {
     static NUMBERS: Cell<Vec<Vec<u32>>> = const { Cell::new(Vec::new()) };
 }
 
-/// A compound of so many parts that its tree is asked, in the plane.
+/// A compound in the plane with so many parts that its tree is used.
 pub(crate) fn many2(shape: &Shape2) -> Option<&Compound2> {
     match shape {
         Shape2::Compound(compound) if compound.parts().len() >= MANY => Some(compound),
@@ -61,7 +61,8 @@ pub(crate) fn in_order(walk: impl FnOnce(&mut Vec<u32>), mut visit: impl FnMut(u
     })
 }
 
-/// Where the parts are that a question is about: within a radius of a point, in metres, as a body's position sees it.
+/// Where the parts are that a question is about: within a radius of a point, in metres, relative to the body's
+/// position.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Region<V> {
     pub(crate) center: V,
@@ -73,15 +74,15 @@ pub(crate) type Region2 = Region<DVec2>;
 pub(crate) type Region3 = Region<DVec3>;
 
 impl Region2 {
-    /// Its radius while it moves so far, and more than rotations and all sums may have lost: a stored rotation
-    /// stretches by its length, which is one up to the rounding of f32; a part has two.
+    /// Its radius, grown by more than rotations and all sums may have lost while it moves by `way`: a stored rotation
+    /// stretches by its length, which is one up to the rounding of f32, and a part has two.
     pub(crate) fn grown(&self, way: DVec2, compound: &Compound2) -> f32 {
         let size = f64::from(compound.outer_radius()) + compound.center().as_dvec2().length();
         let lengths = self.center.length() + way.length() + self.radius + size;
         up(self.radius + 16.0 * f64::from(f32::EPSILON) * lengths)
     }
 
-    /// The box around it, given in the compound's axes.
+    /// The box around a region that is given in the compound's axes.
     pub(crate) fn bounds(&self, compound: &Compound2) -> Aabb2 {
         let grown = self.grown(DVec2::ZERO, compound);
         let [x, y] = self.center.to_array().map(|center| around(center, grown));
@@ -90,14 +91,14 @@ impl Region2 {
 }
 
 impl Region3 {
-    /// Its radius while it moves so far, and more than rotations and all sums may have lost.
+    /// Its radius, grown by more than rotations and all sums may have lost while it moves by `way`.
     pub(crate) fn grown(&self, way: DVec3, compound: &Compound3) -> f32 {
         let size = f64::from(compound.outer_radius()) + compound.center().as_dvec3().length();
         let lengths = self.center.length() + way.length() + self.radius + size;
         up(self.radius + 256.0 * f64::EPSILON * lengths)
     }
 
-    /// The box around it, given in the compound's axes.
+    /// The box around a region that is given in the compound's axes.
     pub(crate) fn bounds(&self, compound: &Compound3) -> Aabb3 {
         let grown = self.grown(DVec3::ZERO, compound);
         let [x, y, z] = self.center.to_array().map(|center| around(center, grown));
@@ -105,12 +106,12 @@ impl Region3 {
     }
 }
 
-/// The smallest f32 that is not below.
+/// The smallest f32 that is not below `value`.
 fn up(value: f64) -> f32 {
     -round_down(-value)
 }
 
-/// A side of a box around a place.
+/// The interval around a centre on one axis.
 fn around(center: f64, reach: f32) -> [f32; 2] {
     [round_down(center - f64::from(reach)), up(center + f64::from(reach))]
 }

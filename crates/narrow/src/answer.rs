@@ -1,4 +1,5 @@
-//! What a narrow phase says: separations, closest points, manifolds. One set a dimension, alike in every name.
+//! The narrow phase's answers: separations, closest points, manifolds. The types for the plane and for space have the
+//! same fields.
 
 use crate::feature::{FeatureId, Hint};
 use crate::points::ContactPoints;
@@ -12,8 +13,8 @@ pub enum Answer {
     Apart {
         /// For the next frame: the axis that separates them.
         hint: Hint,
-        /// By how much more than the margin they are apart at least, in metres; zero where that is not known. Until
-        /// points of theirs have moved that far against each other, they stay apart.
+        /// A lower bound on how much further apart than the margin they are, in metres; zero where none is known. Until
+        /// their points have moved by that much relative to each other, the shapes stay apart.
         beyond: f32,
     },
     /// The shapes are within the margin of each other.
@@ -22,7 +23,7 @@ pub enum Answer {
         hint: Hint,
         /// Whether they share a point.
         overlapping: bool,
-        /// Their manifolds, as a range of the batch's. Empty for a sensor.
+        /// Their manifolds, as a range of [`Batch::manifolds`](crate::Batch::manifolds). Empty for a sensor.
         manifolds: Range<u32>,
     },
 }
@@ -39,13 +40,15 @@ pub enum Answer {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Tier {
-    /// What is asked first, by its own bound. For two cuboids, or polygons of few edges, all axes: one shows a gap
-    /// beyond rounding, or each more overlap than it may be off by. For half-spaces, spheres and capsules a
-    /// distance in closed form. For the rest a search for an axis that parts them, or for corners around a common
-    /// point.
+    /// The first test, whose own error bound was enough:
+    ///
+    /// - Two cuboids, or polygons of few edges: all separating axes. One shows a gap beyond rounding error, or every
+    ///   one shows an overlap beyond it.
+    /// - Half-spaces, spheres and capsules: a distance in closed form.
+    /// - All others: a search for a separating axis, or for support points that enclose a common point.
     Bound,
-    /// For pairs that `Bound` tests by axes (cuboids, polygons of few edges) and cannot settle: the search that it uses
-    /// for all other shapes.
+    /// Only for the pairs that `Bound` tests by their axes (cuboids, polygons of few edges): the axes did not settle
+    /// it, and the search did that all other shapes begin with.
     Double,
     /// Exact arithmetic.
     Exact,
@@ -180,8 +183,8 @@ impl Separation3 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured2 {
     /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest
-    /// translation that separates them; of several parts, the least over pairs of those. At most zero exactly when they
-    /// overlap.
+    /// translation that separates them. For shapes of several parts, the least over all pairs of parts. At most zero
+    /// exactly when the shapes overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -206,8 +209,8 @@ pub struct Measured2 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured3 {
     /// In metres. Where the shapes are apart, their distance; where they overlap, minus the length of the shortest
-    /// translation that separates them; of several parts, the least over pairs of those. At most zero exactly when they
-    /// overlap.
+    /// translation that separates them. For shapes of several parts, the least over all pairs of parts. At most zero
+    /// exactly when the shapes overlap.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -240,7 +243,7 @@ pub struct Closest2 {
     pub anchor_a: Vec2,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec2,
-    /// Which part of A that is: the part of a compound, the segment of a chain by its number; else 0.
+    /// Which part of A the point is on: a part of a compound, or a segment of a chain; else 0.
     pub part_a: u32,
     /// The same for B.
     pub part_b: u32,
@@ -271,7 +274,7 @@ pub struct Closest3 {
     pub anchor_a: Vec3,
     /// The point of B, in world axes, relative to B's position.
     pub anchor_b: Vec3,
-    /// Which part of A that is: the part of a compound, the triangle of ground by its number; else 0.
+    /// Which part of A the point is on: a part of a compound, or a triangle of ground; else 0.
     pub part_a: u32,
     /// The same for B.
     pub part_b: u32,
@@ -302,15 +305,16 @@ pub struct ContactPoint2 {
     pub anchor_a: Vec2,
     /// The point on B, in world axes, relative to B's position.
     pub anchor_b: Vec2,
-    /// What touches what.
+    /// The feature of A and that of B which touch.
     pub feature: FeatureId,
 }
 
 /// One point of a manifold in space.
 ///
-/// Of solids one end is the foot of the other, bit by bit: with `offset` from A's position to B's in f64 and `out` the
-/// normal times the separation, `anchor_b` is `anchor_a - offset + out` rounded once, at all points of a manifold, or
-/// `anchor_a` is `anchor_b + offset - out`.
+/// Except on ground, one anchor is the other, moved along the normal by the separation, bit for bit. Let `offset` be
+/// from A's position to B's, in f64, and `out` the normal times the separation. Then either `anchor_b` is
+/// `anchor_a - offset + out`, rounded once, at all points of a manifold; or `anchor_a` is `anchor_b + offset - out` at
+/// all of them.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere};
@@ -335,17 +339,18 @@ pub struct ContactPoint3 {
     pub anchor_a: Vec3,
     /// The point on B, in world axes, relative to B's position.
     pub anchor_b: Vec3,
-    /// What touches what.
+    /// The feature of A and that of B which touch.
     pub feature: FeatureId,
 }
 
 /// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
 ///
-/// On a chain, the part is the first segment of the straight run that is touched, or the least of those that share the
-/// normal; and the error holds how far its vertices lie beside that.
+/// On a chain, the part is the first segment of the straight [run](asunder_geometry::Run) that is touched; of several
+/// runs that share the normal, the lowest. A run counts as one straight segment, and `error` includes how far its
+/// vertices may lie off that.
 ///
-/// Where there are several, each has the depth along its own normal: the least separation of all says whether the
-/// shapes overlap, and not how far they have to move to be free of each other.
+/// Where a pair has several manifolds, each has the depth along its own normal. The least of their separations says
+/// whether the shapes overlap, but not how far they have to move to be free of each other.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -367,8 +372,8 @@ pub struct Manifold2 {
     pub part_b: u32,
     /// Unit normal in world axes, from A to B.
     pub normal: Vec2,
-    /// Separation of the two parts, in metres. The least of the points' own is within `error` of it, plus 2e-6 of the
-    /// smaller bounding radius: what a steady choice of the reference may cost.
+    /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
+    /// the smaller bounding radius: the price of a reference edge that stays the same from frame to frame.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
@@ -378,7 +383,7 @@ pub struct Manifold2 {
 
 /// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
 ///
-/// On ground, the part is the least triangle of the plane that is touched, or of those that share the normal.
+/// On ground, the part is the lowest triangle of the plane that is touched, or of those planes that share the normal.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -403,29 +408,35 @@ pub struct Manifold3 {
     /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
     /// the smaller bounding radius, with three exceptions:
     ///
-    /// - Where there are four points, which may stand for more, and on ground made of triangles, the points may lie
+    /// - Where there are four points (chosen, perhaps, from more), and on ground made of triangles, all points may lie
     ///   higher than that by up to 2^-15 of the smaller bounding diameter: the price of a choice that is steady from
     ///   frame to frame.
-    /// - Where ground bends in steps too small to give normals, what stands up between the points counts here and in no
-    ///   point: up to 2^-11 of the smaller bounding radius.
-    /// - The depth of a needle-thin triangle along a direction that the ground refuses counts here and in no point, too.
+    /// - Where ground bends in steps too small for normals of their own, what stands up between the points counts here
+    ///   but in no point: up to 2^-11 of the smaller bounding radius.
+    /// - The depth of a needle-thin triangle along a direction that is rejected (outside the Voronoi region of the
+    ///   feature that it comes from) counts here but in no point either.
     pub separation: f32,
     /// |true - reported| <= error, in metres.
     pub error: f32,
-    /// Where they touch. Never empty. Of more corners than four, those that hold the patch by at least 95 % of the best
-    /// four's area, one of them as deep as any up to that: the same from frame to frame, but for a coincidence, while
-    /// their features are. Of two faces, named after the vertex or the edge of each that is within 2^-9 of the smaller
-    /// bounding diameter, if any is.
+    /// Where they touch. Never empty.
+    ///
+    /// Of more than four corners, four are chosen: one is as deep as any, within 2^-15 of the smaller bounding
+    /// diameter, and their area is at least 95 % of the largest that any four have, if those include such a corner too.
+    /// The choice is the same from frame to frame for as long as the corners keep their features, unless two corners
+    /// have each other's.
+    ///
+    /// A point between two faces is named after a vertex (else an edge) of each face that lies within 2^-9 of the
+    /// smaller bounding diameter of it; where none does, after what it lies on.
     pub points: ContactPoints<ContactPoint3, 4>,
 }
 
-/// What a pair looks like within a limit; `N` is the plane's or the space's.
+/// What a probe of a pair within a limit finds; `N` is the type for the plane or for space.
 #[allow(
     clippy::large_enum_variant,
     reason = "it lives on the stack for one pair, and a frame allocates nothing"
 )]
 pub(crate) enum Probe<N> {
-    /// Further apart than the limit: by at least so much.
+    /// Further apart than the limit: by at least this much.
     Beyond(f32, Hint),
     /// The separation, and all that is needed to make contact points.
     Near(N),

@@ -1,4 +1,4 @@
-//! Where `collide2` and `collide3` write their answers and manifolds: lists that a caller keeps from frame to frame.
+//! The answers and manifolds of `collide2` and `collide3`: lists that a caller keeps from frame to frame.
 
 use crate::answer::{Answer, Manifold2, Manifold3};
 use crate::feature::Hint;
@@ -7,9 +7,9 @@ use crate::precision::round_down;
 /// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
 #[derive(Debug, PartialEq)]
 pub struct Batch<M> {
-    /// One answer a job, in order.
+    /// One answer per job, in order.
     pub answers: Vec<Answer>,
-    /// What the answers' ranges point into.
+    /// The manifolds that the answers' ranges index.
     pub manifolds: Vec<M>,
 }
 
@@ -19,10 +19,10 @@ pub type Batch2 = Batch<Manifold2>;
 /// Answers in space.
 pub type Batch3 = Batch<Manifold3>;
 
-/// Whether two shapes overlap, if they are within the margin; else by how many metres they are beyond it at least.
+/// Whether two shapes within the margin overlap; or, for others, a lower bound in metres on how far they are beyond it.
 pub(crate) type Met = Result<bool, f32>;
 
-/// By how much what is at least so far apart is further than the reach of a contact, in metres.
+/// By how much shapes at least `at_least` apart are beyond the reach of a contact, in metres: a lower bound.
 #[inline]
 pub(crate) fn beyond(at_least: f64, reach: f64) -> f32 {
     round_down(at_least - reach).max(0.0)
@@ -43,7 +43,7 @@ impl<M> Batch<M> {
         self.manifolds.clear();
     }
 
-    /// Appends an answer: how the shapes met, and the manifolds from `first` on.
+    /// Appends an answer; for shapes that met, with the manifolds from `first` on.
     pub(crate) fn push(&mut self, hint: Hint, met: Met, first: u32) {
         self.answers.push(match met {
             Err(beyond) => Answer::Apart { hint, beyond },

@@ -1,29 +1,29 @@
 //! When a moved shape first touches another, in the plane.
 //!
 //! ```text
-//! circles swept along the way do not meet: a miss          the way is cut down to where they do
+//! circles swept along the way do not meet: a miss          else the way is cut down to where they do
 //! overlapping at the start, exactly: an impact at 0
 //! repeat
-//!   find the gap and the axis that shows it, where the shapes now are                (polygon/distance)
-//!   the axis parts them for the rest of the way: a miss, and no tolerance is in it
+//!   find the gap, and the axis that shows it, for the shapes as they now stand       (polygon/distance)
+//!   the axis separates them for the rest of the way: a miss, without any tolerance
 //!   the gap is next to nothing: an impact                                            (tolerance: CAST_GAP2)
-//!   go on for as long as this axis, and no other, shows a gap for certain            (course)
+//!   go on for as long as this one axis certainly shows a gap                         (course)
 //! ```
 //! The step is that of van den Bergen, "Ray casting against general convex objects with application to continuous
-//! collision detection" (2004), for shapes that only move: along a fixed axis the gap closes at a constant speed.
-//! The distance of convex sets that only move is convex over time, and the step is Newton's for it: two rounds for
-//! a face, quadratic for corners and round shapes, and where they graze, each round leaves a quarter of the gap.
+//! collision detection" (2004), for shapes that only translate: along a fixed axis the gap closes at a constant speed.
+//! The distance of convex sets that translate is convex over time, and the step is Newton's for it: two rounds for a
+//! face, quadratic for corners and round shapes, and where they graze, each round leaves a quarter of the gap.
 //!
 //! For shapes that turn as well, conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body
-//! systems", 1996) bounds the speed of every point by its arm and the angular speed, and converges slowly where a
-//! rod spins fast and closes slowly. What is done instead:
-//! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration
-//!    and squared speed). So between two times that are D apart the gap is no less than the lesser of the two, less
-//!    M D^2 / 8: two projections certify a whole stretch. The longest such stretch is found by regula falsi, at two
-//!    supports a try.
-//! 2. The error of that bound shrinks with the square of the stretch: the last rounds converge as Newton's do,
-//!    however fast the spin. Catto's bilateral advancement (GDC 2013) reaches as much along an axis, but takes the
-//!    deepest point at the end for the only one that matters; here no vertex can slip through between two times.
+//! systems", 1996) bounds the speed of every point by its arm and the angular speed. It converges slowly where a rod
+//! spins fast and closes slowly. What is done instead:
+//! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration and
+//!    squared speed). So between two times D apart the gap is at least the lesser of the gaps at both, less M D^2 / 8:
+//!    two projections certify a whole stretch. The longest such stretch is found by regula falsi, at two supports a
+//!    try.
+//! 2. The error of that bound shrinks with the square of the stretch: the last rounds converge as Newton's do, however
+//!    fast the spin. Catto's bilateral advancement (GDC 2013) gets as far along an axis, but assumes that the deepest
+//!    point at the end is the only one that matters; here no vertex can slip through between two times.
 //! 3. Turns are cut in halves of at most a quarter turn (`Motion2`), so that angular speeds and accelerations stay
 //!    within a small factor of their mean.
 //!
@@ -34,12 +34,12 @@
 //! |---|---|---|---|---|---|---|
 //! | distance at the start | 370 | 331 | 385 | 624 | 1153 | 166 |
 //! | cast | 709 | 754 | 957 | 6073 | 12787 | 331 |
-//! | cast that circles tell to miss | 27 | 27 | 27 | 27 | 27 | |
+//! | cast, a miss by circles | 27 | 27 | 27 | 27 | 27 | |
 //! | impact, turning | 6684 | 11178 | 5461 | 12632 | 18070 | 544 |
 //! | ray | 58 | 55 | 75 | 84 | 174 | 33 |
 //!
-//! What the poses in between round to is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7
-//! of the arm. That is the best `error` that an impact of turning shapes can have.
+//! The rounding of the poses in between is part of every bound: f64 positions, and rotations rounded to f32, 1.2e-7 of
+//! the arm. That is the best `error` that an impact of turning shapes can have.
 
 mod beyond;
 mod counts;
@@ -71,24 +71,24 @@ impl Pair2<'_> {
     ///
     /// - Touching at the start, exactly, is an impact at fraction 0, even where A moves away. Its anchors are the
     ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
-    /// - What is apart by less than the positions round to (some 1e-14 of the size near the origin; further out some 8
-    ///   units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) is an impact at 0 too, unless A parts
-    ///   from it; `overlapping` says no, and `error` how far apart they may be. So what a cast has brought to another
-    ///   may leave it; except, now and then, where that is some thousand times as large.
+    /// - Shapes that are apart by less than positions round to (some 1e-14 of the size near the origin; further out
+    ///   some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) are an impact at 0 too, unless A
+    ///   moves away; `overlapping` says no, and `error` how far apart they may be. So a shape that a cast has brought
+    ///   up to another may leave it; except, now and then, where the other is some thousand times as large.
     /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by
     ///   how much they may miss.
     /// - A compound is met at the pair of parts that touches first; of equals, the first.
-    /// - A one-sided chain is met from its front alone: what is behind a straight [run](asunder_geometry::Run) of it
-    ///   when it comes to touch that run passes all of it, even where its middle comes through on the way; contacts
-    ///   begin then. A shape that turns may come to touch the run again, from its front, once the two have been apart
-    ///   for a 32nd of the motion; a shorter time between may be missed, and the touch after it.
-    /// - Inner vertices of straight lines and hollows have the normal of what they are on. The part of a chain is the
-    ///   first segment of the straight run that is met.
+    /// - A one-sided chain is met from its front alone. What is behind a straight [run](asunder_geometry::Run) of it
+    ///   when it comes to touch that run passes through all of it, even where its middle comes through on the way;
+    ///   contacts begin then. A shape that turns may come to touch the run again, from its front, once the two have
+    ///   been apart for a 32nd of the motion; after a shorter time apart, that touch may be missed.
+    /// - At inner vertices of straight lines and hollows, the normal is that of the run they are on. The part of a
+    ///   chain is the first segment of the straight run that is met.
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     ///
     /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap, and
-    /// one distance for each round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
+    /// one distance per round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
     /// [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
     ///
     /// ```
@@ -114,7 +114,7 @@ impl Pair2<'_> {
     /// - The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
     ///   touch, and there they are at most `error` apart. Where a body turns, and is not a ball about its position,
     ///   that is no less than 1.2e-7 of its arm.
-    /// - Where many rounds lead no nearer, as for shapes that graze each other while they turn, the fraction is that of
+    /// - Where many rounds get no nearer, as for shapes that graze each other while they turn, the fraction is that of
     ///   the last round, and `error` the gap that is left there.
     /// - Two half-planes of which one turns touch at once.
     ///
@@ -137,7 +137,7 @@ impl Pair2<'_> {
         self.first_touch(&Travel::of(self, [motion_a, motion_b]))
     }
 
-    /// What bodies that may touch already run into next: like [`impact`](Self::impact), but what they touch at the
+    /// What bodies that may already touch run into next: like [`impact`](Self::impact), but what they touch at the
     /// start is passed over.
     ///
     /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. So a
@@ -152,12 +152,12 @@ impl Pair2<'_> {
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.
     /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
-    /// - Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact
+    /// - Where ground is touched at two places, and only one of them has a contact, going into the other is an impact
     ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors may be off
     ///   by up to half the thickness.
     /// - `None` for bodies of one part each that touch. Never `overlapping`.
     ///
-    /// Cost: as the impact, which is asked first; for those that touch, their manifolds too, and another search.
+    /// Cost: as the impact, which is tested first; for bodies that touch, their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Motion2, Pose2, Shape2, glam::Vec2};
@@ -177,9 +177,9 @@ impl Pair2<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as
-    /// well, such as the next of the tiles that a floor is made of. Not so parts of ground that A touches too: ground
-    /// has no such seams.
+    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: what is flush with those is
+    /// passed over as well, such as the next of the tiles that a floor is made of. Parts of ground that A touches too
+    /// are not: ground has no such seams.
     ///
     /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
     ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
@@ -259,7 +259,7 @@ impl Pair2<'_> {
         })
     }
 
-    /// The same within a stretch, of two bodies that are no ground.
+    /// The same within a stretch, for two bodies that are not ground.
     fn first_touch_of_parts(
         &self,
         (before, stretch): (Option<&Stretch>, &Stretch),
@@ -308,13 +308,13 @@ impl Pair2<'_> {
     }
 }
 
-/// Whether two parts came to touch in the stretch before, which was no impact: from then on they pass each other.
+/// Whether two parts came to touch in the stretch before, without an impact: from then on they pass each other.
 fn is_passed(before: Option<&Stretch>, pieces: [&Piece; 2]) -> bool {
     let course = before.and_then(|before| Course::new(before, pieces, 1.0));
     course.is_some_and(|course| course.first_touch().is_some())
 }
 
-/// The deepest point of a manifold.
+/// A manifold as an impact, with its deepest point.
 fn at_start(manifold: &Manifold2) -> Option<Impact2> {
     let deepest = manifold.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation))?;
     Some(Impact2 {
@@ -343,12 +343,12 @@ fn impact(stretch: &Stretch, touching: &Touching, pieces: [&Piece; 2]) -> Impact
     }
 }
 
-/// Of a body's position, all that a bound on its rounding needs.
+/// The sum of a position's coordinates by magnitude: all that a bound on its rounding needs.
 fn sum(v: DVec2) -> f64 {
     v.abs().element_sum()
 }
 
-/// What a body's own position rounds to, on its way.
+/// What a moving body's own position rounds to.
 fn position_of(pose: &Pose2) -> f64 {
     sum(pose.position())
 }

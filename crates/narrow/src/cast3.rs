@@ -10,16 +10,16 @@
 //! | ground | its triangles, each as any two; which normal counts | [`ground`] |
 //! | what has many parts, and turns | those that may meet on the way, in straight legs | [`legs`] |
 //! | what is touched already, and has parts | those that are not, and not level with it | [`beyond`] |
-//! | two half-spaces; what touches at the start or stalls; all that turns | a distance, a step, a distance | [`advance`] |
+//! | two half-spaces; touching at the start; stalling; all that turns | distances and steps, in turns | [`advance`] |
 //!
-//! What it brought, parry3d's time over ours in one run each, a quarter of the motions passing by (AMD EPYC, Zen 4,
-//! 2026-11-21, two cores with much else on them: to some 10 %):
+//! What each step brought: parry3d's time over ours in one run each, a quarter of the motions passing by (AMD EPYC, Zen
+//! 4, 2026-11-21, two cores with much else on them: to some 10 %):
 //!
 //! | | sphere | capsule | cuboid | hull of 32 |
 //! |---|---|---|---|---|
 //! | cast, each by distances and steps | 0.06 | 2.6 | 0.25 | 0.41 |
 //! | each pair by its own means | 0.6 | 2.5 | 2.1 | 1.0 |
-//! | spheres without their axes; supports in f32 again wherever the gap is clear, not only at first | 1.1 | 4.0 | 3.4 | 1.1 |
+//! | spheres without axes; supports in f32 again wherever the gap is clear, not only at first | 1.1 | 4.0 | 3.4 | 1.1 |
 //! | ray, of unit length, sphere asked first | 0.41 | 0.67 | 0.66 | 4.2 |
 //! | as it is given, roots for hits alone | 1.7 | 1.2 | 1.1 | 5.4 |
 
@@ -56,28 +56,28 @@ impl Pair3<'_> {
     /// - Before the fraction that is reported they certainly do not touch; there they are at most `error` apart: at
     ///   most 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds,
     ///   except where the displacement is so long or the bodies so far from the origin that f64 has no nearer place.
-    /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact; those that
-    ///   part from each other are not, however near they are, so that what a cast has brought to another may leave it:
-    ///   except, now and then, what leaves an edge or a corner that is less than 1e-12 of the larger size away, or
+    /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact; shapes that
+    ///   move apart are not, however near they are, so that a shape which a cast has brought up to another may leave
+    ///   it: except, now and then, what leaves an edge or a corner that is less than 1e-12 of the larger size away, or
     ///   anything some ten thousand times as large as itself.
     /// - Shapes that touch at the start, exactly, are reported as such, even when they move apart: compare the normal
     ///   with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and
     ///   both anchors are the bodies' positions.
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
-    /// - A compound is met at the parts that meet first.
+    /// - A compound is met at the parts that touch first.
     ///
     /// Ground is met at its first triangle on the way; `part_b` (or `part_a`) is its number.
     ///
-    /// - One-sided ground stops what is in front of a triangle at the start, by the centre of the part, however fast it
-    ///   is, and nothing else. What overlaps no triangle that sees it does not touch at the start.
-    /// - What comes up through one-sided ground, and moves away from the front of the triangle beside, passes the edge
-    ///   between the two.
+    /// - One-sided ground stops what is in front of a triangle at the start, judged by the centre of the part, however
+    ///   fast it is, and nothing else. What overlaps no triangle whose front it is on does not touch at the start.
+    /// - What comes up through one-sided ground, and moves away from the front of the neighbouring triangle, passes the
+    ///   edge between the two.
     /// - The normal is the triangle's own, except where an edge or vertex stands out of the ground around it.
     ///
     /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others. On ground:
     /// that for each triangle whose box the moved part's box meets and whose plane it reaches; for ground that turns,
-    /// and for half-spaces, every triangle.
+    /// and for half-spaces, for every triangle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -95,7 +95,7 @@ impl Pair3<'_> {
     pub fn cast(&self, displacement: Vec3) -> Option<Impact3> {
         let drift = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
         if let (Shape3::Sphere(a), Shape3::Sphere(b)) = (self.shape_a, self.shape_b) {
-            // Without their axes.
+            // Spheres need no axes.
             let radii = [a.radius(), b.radius()].map(f64::from);
             let centers = [DVec3::ZERO; 2];
             let [from, to] = centers;
@@ -110,15 +110,15 @@ impl Pair3<'_> {
     /// When two bodies that both move, and may turn, first touch; `None` if they never do.
     ///
     /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that is
-    /// reported the shapes do not touch on it.
+    /// reported the shapes do not touch on that path.
     ///
     /// - [`Motion3::pose_at`] rounds rotations to f32 and positions to f64. Poses from it may overlap by that rounding
     ///   just before the fraction, and at the fraction are at most `error` apart with it.
-    /// - Where many steps lead no nearer, as for shapes that graze each other while they turn, the fraction is that of
+    /// - Where many steps get no nearer, as for shapes that graze each other while they turn, the fraction is that of
     ///   the last step, and `error` the gap that is left there.
     ///
-    /// Cost: a few distances; several times those of a [`cast`](Self::cast) while turning; of compounds, for every pair
-    /// of parts whose bounding spheres meet on the way.
+    /// Cost: a few distances; several times those of a [`cast`](Self::cast) while turning; for compounds, that for
+    /// every pair of parts whose bounding spheres meet on the way.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
@@ -140,7 +140,7 @@ impl Pair3<'_> {
         self.first_touch(&Passage::of_motions(self, [motion_a, motion_b]))
     }
 
-    /// What bodies that may touch already run into next: like [`impact`](Self::impact), but what they touch at the
+    /// What bodies that may already touch run into next: like [`impact`](Self::impact), but what they touch at the
     /// start is passed over.
     ///
     /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. So a
@@ -155,12 +155,12 @@ impl Pair3<'_> {
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.
     /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
-    /// - Where ground is touched at two places, and the contacts tell of one alone, going into the other is an impact
+    /// - Where ground is touched at two places, and only one of them has a contact, going into the other is an impact
     ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors may be off
     ///   by up to half the thickness.
     /// - `None` for bodies of one part each that touch. Never `overlapping`.
     ///
-    /// Cost: as the impact, which is asked first; for those that touch, their manifolds too, and another search.
+    /// Cost: as the impact, which is tested first; for bodies that touch, their manifolds too, and another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -182,9 +182,9 @@ impl Pair3<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that touches others: what is flush with those is passed over as
-    /// well, such as the next of the tiles that a floor is made of. Not so parts of ground that A touches too: ground
-    /// has no such seams.
+    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: what is flush with those is
+    /// passed over as well, such as the next of the tiles that a floor is made of. Parts of ground that A touches too
+    /// are not: ground has no such seams.
     ///
     /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
     ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
@@ -248,12 +248,12 @@ impl Pair3<'_> {
         {
             return end;
         }
-        // What touches already need not be looked at on its way, where that is told in a tenth of the time.
+        // Where a closed form says so in a tenth of the time, shapes that touch already need no search on their way.
         if self.verdict_in_closed_form().is_some_and(|verdict| verdict.overlapping) {
             return Some(self.touching_at_start());
         }
         let are_planes = |shape: &Shape3| matches!(shape, Shape3::HalfSpace(_));
-        // Planes that overlap only far out look parted from near.
+        // Half-spaces that overlap only far out look separate from near.
         if passage.is_still() || are_planes(self.shape_a) && are_planes(self.shape_b) {
             if self.overlaps() {
                 return Some(self.touching_at_start());
@@ -265,7 +265,8 @@ impl Pair3<'_> {
         self.first_touch_of_parts(passage, Counts::All)
     }
 
-    /// The first touch with a half-space of what is certainly apart from it at the start, in closed form.
+    /// The first touch with a half-space, in closed form; `None` unless the other is certainly apart from it at the
+    /// start.
     fn end_on_plane(&self, passage: &Passage) -> Option<Option<Impact3>> {
         if [self.shape_a, self.shape_b].iter().any(|shape| matches!(shape, Shape3::Compound(_))) {
             return None;
@@ -278,7 +279,7 @@ impl Pair3<'_> {
         }
     }
 
-    /// The first of the pairs of convex parts whose touch counts.
+    /// The first touch that counts, of all pairs of convex parts.
     fn first_touch_of_parts(&self, passage: &Passage, counts: Counts) -> Option<Impact3> {
         let mut first: Option<Impact3> = None;
         let mut is_asked = false;
@@ -322,7 +323,7 @@ impl Pair3<'_> {
         if overlaps { Some(self.touching_at_start()) } else { first }
     }
 
-    /// Shapes that touch before anything has moved.
+    /// The impact of shapes that touch before anything has moved.
     fn touching_at_start(&self) -> Impact3 {
         if let Some(manifold) = self.manifold(0.0) {
             return at_start(&manifold);
@@ -347,7 +348,7 @@ fn at_start(manifold: &Manifold3) -> Impact3 {
     Impact3 { fraction: 0.0, error: 0.0, overlapping: true, normal, anchor_a, anchor_b, part_a, part_b }
 }
 
-/// How the motion of two parts ends that may touch on a stretch of it.
+/// How the motion of two parts ends, which may touch on a stretch of it.
 fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) -> End {
     let quick = match (parts[0].shape, parts[1].shape) {
         _ if !passage.is_straight() => None,
@@ -373,7 +374,7 @@ fn by_steps(passage: &Passage, [a, b]: [Part; 2], stretch: &Stretch, until: f64)
     quick.unwrap_or_else(|| advance(&course, until))
 }
 
-/// Two spheres, which are their own bounding spheres: nothing where they all but touch at the start.
+/// Two spheres, which are their own bounding spheres; `None` if they all but touch at the start.
 fn balls(
     stretch: &Stretch,
     drift: DVec3,

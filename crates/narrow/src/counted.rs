@@ -1,7 +1,7 @@
-//! Steps of kernels, so that tests can count what they cannot time.
+//! Counts the steps of kernels, so that tests can check cost without timing.
 //!
-//! A step is one halving of a search, one edge of a polygon, or one go over eight vertices, faces or edges: 3 to 5
-//! ns (AMD EPYC, Zen 4, 2026-11-21). What takes longer counts as several. In what is shipped there is no counter.
+//! A step is one halving of a search, one edge of a polygon, or one pass over eight vertices, faces or edges: 3 to 5 ns
+//! (AMD EPYC, Zen 4, 2026-11-21). What takes longer counts as several. Outside of tests there is no counter.
 
 /// Counts one step, in tests.
 #[inline(always)]
@@ -9,7 +9,7 @@ pub(crate) fn count_step() {
     count_steps(1);
 }
 
-/// Counts so many steps, in tests.
+/// Counts this many steps, in tests.
 #[cfg(not(test))]
 #[inline(always)]
 pub(crate) fn count_steps(_: usize) {}

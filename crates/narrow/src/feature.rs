@@ -4,11 +4,12 @@ use asunder_geometry::glam::{DVec3, Vec3};
 
 /// A feature of one shape, by the index that its topology gives it.
 ///
-/// Vertices count as in `vertices()`. Edges of a polyhedron count by their lower half-edge
-/// ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)), edges of a polygon by the vertex they start from. The
-/// edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)). Of meshes and
-/// height fields a face is a plane, by its least triangle; an edge counts by the lower of its half-edges, of which
-/// triangle `t` has `3 t` to `3 t + 2`.
+/// - Vertices count as in `vertices()`.
+/// - Edges of a polyhedron count by their lower half-edge ([`Topology::edge_of`](asunder_geometry::Topology::edge_of)),
+///   edges of a polygon by the vertex they start from.
+/// - The edges of a chain are its straight runs, by their first segments ([`Run`](asunder_geometry::Run)).
+/// - A face of a mesh or height field is a plane, by its lowest triangle; an edge counts by the lower of its
+///   half-edges, of which triangle `t` has `3 t` to `3 t + 2`.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -54,8 +55,8 @@ impl Feature {
     }
 }
 
-/// Which feature of A meets which feature of B, in 64 bits: with both bodies and both parts, the name by which a solver
-/// finds last frame's impulse.
+/// Which feature of A meets which feature of B, in 64 bits: together with both bodies and both parts, the key by which
+/// a solver finds last frame's impulse.
 ///
 /// Equal features have equal ids, whichever kernel found them and whichever shape was the reference.
 ///
@@ -71,8 +72,8 @@ impl Feature {
     derive(serde::Serialize, serde::Deserialize),
     serde(from = "u64", into = "u64")
 )]
-// Not a u64, which would make each contact point 4 bytes longer, and a frame of bodies that rest reads and writes
-// little else.
+// Not a u64, which would make each contact point 4 bytes longer: a frame of bodies at rest reads and writes little
+// else.
 pub struct FeatureId([u32; 2]);
 
 impl FeatureId {
@@ -124,11 +125,11 @@ impl From<FeatureId> for u64 {
 
 /// What the last frame learnt about a pair: opaque, cheap to keep, and safe to lose.
 ///
-/// It names the axis to try first: the features that it belongs to, or the direction that parted the shapes; and,
-/// where it is another, the face that contact points were made on. A stale hint, also one made for other shapes,
-/// costs a projection or two and can never change whether shapes overlap, nor break a bound on an error: an axis is
-/// believed only after both shapes were projected on it. Among features that are equally good up to rounding,
-/// contact points are made where the hint says that they were: what a solver stands on does not flicker.
+/// It names the axis to try first, by its features or as the direction that separated the shapes; and the face that
+/// contact points were made on, if that is another. A stale hint, even one made for other shapes, costs a projection or
+/// two. It can never change whether shapes overlap, nor break an error bound: an axis is trusted only after both shapes
+/// were projected on it. Among features that are equally good up to rounding, contact points are made where the hint
+/// says they were, so that they do not flicker under a solver.
 ///
 /// ```
 /// use asunder_narrow::Hint;
@@ -150,20 +151,22 @@ pub(crate) enum OnFace {
 enum Known {
     #[default]
     Nothing,
-    /// Bits of a [`FeatureId`]; then the face that contact points were made on, where it is another: the top bit, its
-    /// index, and whose it is. Zero where it is not.
+    /// Bits of a [`FeatureId`]; then, if contact points were made on another face, that face: the top bit set, its
+    /// index, and whose it is. Else zero.
     Features([u32; 3]),
-    /// Bits of a vector: in A's axes in space, in the world's in the plane. Of compounds, one that parted them as
+    /// Bits of a vector: in A's axes in space, in the world's in the plane. For compounds, one that separated them as
     /// wholes.
     Direction([u32; 3]),
-    /// Of compounds that are apart, the direction to try next, and for how many frames none has parted them as wholes.
+    /// For compounds that are apart: for how many frames none has separated them as wholes, and the direction to try
+    /// next.
     Sought(u8, [u32; 3]),
-    /// What two pairs of parts left, of compounds that touch: see `kept`.
+    /// For compounds that touch: what two pairs of parts left; see `kept`.
     Parts([u32; 3]),
 }
 
-/// For how many frames on end a direction is sought that parts two compounds as wholes, and one of how many frames
-/// tries again. Hammers hooked into each other, which no plane parts: 8 to 40 % slower where every frame tried.
+/// For this many frames on end, a direction is sought that separates two compounds as wholes; from then on, in one
+/// frame of every `PAUSE`. Hammers hooked into each other, which no plane separates: 8 to 40 % slower with a try in
+/// every frame.
 const TRIES: u8 = 4;
 const PAUSE: u8 = 16;
 
@@ -178,7 +181,7 @@ impl Hint {
         Self(Known::Features([(bits >> 32) as u32, bits as u32, 0]))
     }
 
-    /// The same, with the face of either shape that contact points were made on; nothing where it is the axis' own.
+    /// The same, with the face of either shape that contact points were made on; `None` if it is the axis' own.
     pub(crate) fn with_points_on(self, face: Option<OnFace>) -> Self {
         let bits = match face {
             None => 0,
@@ -191,7 +194,7 @@ impl Hint {
         }
     }
 
-    /// Where contact points were made, if not on the axis' own feature.
+    /// The face that contact points were made on, if it is not the axis' own.
     pub(crate) const fn points_on(self) -> Option<OnFace> {
         match self.0 {
             Known::Features([_, _, bits]) if bits >> 31 == 1 => {
@@ -202,20 +205,20 @@ impl Hint {
         }
     }
 
-    /// A direction that parts the shapes: in A's axes in space, in the world's in the plane.
+    /// A direction that separates the shapes: in A's axes in space, in the world's in the plane.
     pub(crate) fn towards(direction: DVec3) -> Self {
         Self(Known::Direction(bits_of(direction)))
     }
 
-    /// Of compounds that are apart: the direction to try next, after one more frame in which none parted them as
+    /// For compounds that are apart: the direction to try next, after one more frame in which none separated them as
     /// wholes.
     pub(crate) fn seeking(self, direction: DVec3) -> Self {
         let frames = if let Known::Sought(frames, _) = self.0 { frames.wrapping_add(1) } else { 0 };
         Self(Known::Sought(frames, bits_of(direction)))
     }
 
-    /// The direction that parted compounds as wholes, or the one to try next, and whether this frame is to try it: the
-    /// first few do, and one of many from then on.
+    /// The direction that separated compounds as wholes, or the one to try next; and whether to try it in this frame:
+    /// the first few frames do, and from then on one of many.
     pub(crate) fn sought(self) -> Option<(DVec3, bool)> {
         let (bits, is_due) = match self.0 {
             Known::Direction(bits) => (bits, true),
@@ -225,12 +228,12 @@ impl Hint {
         direction_of(bits).try_normalize().map(|sought| (sought, is_due))
     }
 
-    /// What was kept of two pairs of parts, of 48 bits each.
+    /// For two pairs of parts, what was kept of each, in 48 bits.
     pub(crate) fn for_parts([one, other]: [u64; 2]) -> Self {
         Self(Known::Parts([one as u32, (one >> 32 | other << 16) as u32, (other >> 16) as u32]))
     }
 
-    /// The same back, where the shapes were compounds that touched.
+    /// What [`for_parts`](Self::for_parts) stored; `None` unless the shapes were compounds that touched.
     pub(crate) fn of_parts(self) -> Option<[u64; 2]> {
         match self.0 {
             Known::Parts(bits) => {
@@ -248,7 +251,7 @@ impl Hint {
         }
     }
 
-    /// Of unit length, in the axes it was given in.
+    /// The direction, of unit length, in the axes that it was given in.
     pub(crate) fn direction(self) -> Option<DVec3> {
         match self.0 {
             Known::Direction(bits) => direction_of(bits).try_normalize(),
@@ -257,14 +260,14 @@ impl Hint {
     }
 }
 
-/// A direction as a hint holds it.
+/// A direction as a hint stores it.
 #[inline]
 fn bits_of(direction: DVec3) -> [u32; 3] {
     let Vec3 { x, y, z } = direction.as_vec3();
     [x.to_bits(), y.to_bits(), z.to_bits()]
 }
 
-/// The same back.
+/// The direction that [`bits_of`] stored.
 #[inline]
 fn direction_of([x, y, z]: [u32; 3]) -> DVec3 {
     Vec3::new(f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)).as_dvec3()

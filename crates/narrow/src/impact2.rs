@@ -1,4 +1,4 @@
-//! What a cast in the plane says: impacts, and hits of rays.
+//! The results of casts in the plane: impacts, and hits of rays.
 
 use asunder_geometry::glam::Vec2;
 
@@ -17,19 +17,19 @@ use asunder_geometry::glam::Vec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact2 {
-    /// The share of the motion that is done, 0 to 1. Conservative: before it they do not touch.
+    /// The share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
     pub fraction: f64,
-    /// Metres: at `fraction` the shapes are at most this far apart, where their poses round to included. Zero where
-    /// they touch at the start.
+    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It includes
+    /// what the rounding of a pose at that fraction may add.
     pub error: f32,
-    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal that of the least
+    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal is that of the least
     /// depth.
     pub overlapping: bool,
     /// Unit normal in world axes, from A to B, at the impact.
     pub normal: Vec2,
-    /// Where they meet, on A: in world axes, relative to A's position at the impact.
+    /// Where they meet on A, in world axes, relative to A's position at the impact.
     pub anchor_a: Vec2,
-    /// Where they meet, on B: in world axes, relative to B's position at the impact.
+    /// Where they meet on B, in world axes, relative to B's position at the impact.
     pub anchor_b: Vec2,
     /// Which part of A, for shapes made of several; of a chain, the first segment of the straight run; else 0.
     pub part_a: u32,

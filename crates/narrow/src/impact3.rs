@@ -1,4 +1,4 @@
-//! What casts in space say.
+//! The results of casts in space: impacts, and hits of rays.
 
 use asunder_geometry::glam::Vec3;
 
@@ -18,12 +18,13 @@ use asunder_geometry::glam::Vec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact3 {
-    /// Share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
+    /// The share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
     pub fraction: f64,
-    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It covers what
-    /// the rounding of a pose at that fraction may add.
+    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It includes
+    /// what the rounding of a pose at that fraction may add.
     pub error: f32,
-    /// They touch at the start already, exactly: then the fraction is 0 and the normal that of the least depth.
+    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal is that of the least
+    /// depth.
     pub overlapping: bool,
     /// Unit axis in world axes, from A to B, at the impact.
     pub normal: Vec3,
@@ -57,7 +58,7 @@ pub struct RayHit3 {
     pub error: f32,
     /// Outward unit normal of the shape there, in world axes; against the ray's direction where it starts inside.
     pub normal: Vec3,
-    /// The ray starts in the shape, or touches it there, exactly: then the distance is 0.
+    /// Whether the ray starts in the shape, exactly; touching counts. Then the distance is 0.
     pub inside: bool,
     /// Which part of a shape made of several, or which triangle of ground; else 0.
     pub part: u32,

@@ -1,13 +1,13 @@
 //! Batches of pairs in space.
 //!
 //! ```text
-//! for each run of jobs:   pairs of cuboids whose bounding spheres meet are put side by side, until there are eight
-//!                         all eight are looked at at once
-//!                         every job of the run is answered, in order
+//! for each run of jobs:   collect pairs of cuboids whose bounding spheres meet, until there are eight
+//!                         test all eight at once, one in each lane
+//!                         answer every job of the run, in order
 //! ```
 //! Tried for hulls, whose code does not fit into the processor's nearest memory: sixteen pairs at a time in three
 //! stages, all separations, then all points, then all manifolds. It halves how often code is fetched anew (callgrind),
-//! and takes 2 % longer: what is handed from stage to stage is as much (AMD EPYC, Zen 4, 2026-11-23).
+//! and takes 2 % longer: the data handed from stage to stage costs as much (AMD EPYC, Zen 4, 2026-11-23).
 
 use crate::answer::Separation3;
 use crate::batch::Batch3;
@@ -38,8 +38,8 @@ pub struct Job3<'a> {
     pub sensor: bool,
 }
 
-/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other, but cuboids cost less in
-/// slices of dozens: eight pairs of them are looked at at a time.
+/// Answers a slice of jobs, appending to the batch. Jobs do not influence each other, but cuboids cost less in slices
+/// of dozens: eight pairs of them are tested at a time.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -110,7 +110,7 @@ pub fn separations3(pairs: &[Pair3<'_>], limit: f32, found: &mut Vec<Separation3
     }
 }
 
-/// Fewer lanes than this cost less one by one.
+/// With fewer lanes in use, pairs cost less one by one.
 const FEW: usize = 3;
 
 /// Most jobs in a run.
@@ -121,9 +121,9 @@ const RUN: usize = 32;
 enum Way {
     /// By itself.
     Alone,
-    /// Its bounding spheres are too far apart, by so many metres.
+    /// Apart by its bounding spheres, by this many metres more than the reach.
     Far(f32),
-    /// In a lane.
+    /// From a lane.
     Lane(u8),
 }
 
@@ -138,7 +138,8 @@ struct Run {
 impl Run {
     const BLANK: Self = Self { eight: Eight::BLANK, ways: [Way::Alone; RUN], count: 0, lanes: 0 };
 
-    /// Takes pairs, each with how far apart is far, until all lanes are full, and looks at them: see [`Eight::look`].
+    /// Takes pairs, each with the gap beyond which it is apart, until all lanes are full, and tests them: see
+    /// [`Eight::look`].
     #[inline(always)]
     fn gather<'a, const GRADED: bool>(&mut self, pairs: impl Iterator<Item = (Option<Posed<'a>>, f64)>) {
         (self.count, self.lanes) = (0, 0);
@@ -162,7 +163,7 @@ impl Run {
         }
     }
 
-    /// The lane to be asked, where one has been looked at.
+    /// The lane that answers a job, if the lanes were tested.
     #[inline(always)]
     fn lane(&self, way: Way) -> Option<(&Eight, usize)> {
         match way {
@@ -192,7 +193,7 @@ impl<'a> Job3<'a> {
         batch.push(hint, met, first);
     }
 
-    /// Two cuboids, from one of eight lanes.
+    /// Two cuboids, answered from one of eight lanes.
     #[inline(always)]
     fn answer_from(&self, lane: (&Eight, usize), batch: &mut Batch3) {
         let Some(cuboids) = self.cuboids() else { return self.answer(batch) };

@@ -1,22 +1,22 @@
-//! The hints of parts that touch, of compounds: two of them in the room of one.
+//! The hints of touching parts of compounds: two of them in the space of one.
 //!
 //! ```text
 //! bits of a hint's 96:    48 for each of two pairs of parts:
 //!     12, 12              which part of A and of B
-//!     2                   0 nobody, 1 two edges, 2 a face (or edge, in the plane) of A, 3 one of B
-//!     11, 11              of two edges: their lower half-edges
-//!     1, 12               of an edge in the plane: 1, which
-//!     1, 9, 2, 9          of a face: 0, which; whether points are on another, of A (1) or of B (2); which
+//!     2                   0 none, 1 two edges, 2 a face (or edge, in the plane) of A, 3 one of B
+//!     11, 11              for two edges: their lower half-edges
+//!     1, 12               for an edge in the plane: 1, its index
+//!     1, 9, 2, 9          for a face: 0, its index; whether points are on another, of A (1) or of B (2); its index
 //! ```
-//! A pair of parts that has a place keeps it while it touches, whichever is the deepest: a body that rests on four
-//! legs would else have others each frame. Free places go to the deepest.
+//! A pair of parts keeps its place for as long as it touches, even if others are deeper: else a body that rests on four
+//! legs would have other hints each frame. Free places go to the deepest.
 //!
 //! Hammers of 2, 4 and 8 parts that touch, nanoseconds per pair without and with (AMD EPYC, Zen 4, 2026-11-21): of
 //! hulls of 32, 3817, 4057, 5043 to 2713, 3326, 4320, and on a slab 1882, 3030, 5555 to 1291, 2427, 4755. Of boxes,
-//! whose fifteen axes cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint is no gain in
-//! time, and is kept for the face that points stand on.
+//! whose fifteen axes cost no more than a proof, 1599, 1952, 3155 to 1707, 2028, 3090: their hint saves no time, and is
+//! kept for the face that points lie on.
 //!
-//! Hints that are directions do not fit, and are not kept: those of parts that are apart, and of corners across a gap.
+//! Hints that are directions do not fit and are not kept: those of parts that are apart, and of corners across a gap.
 
 use crate::feature::{Feature, FeatureId, Hint, OnFace};
 use asunder_geometry::tolerance::{MAX_HULL_VERTICES, MAX_PARTS, MAX_POLYGON_VERTICES};
@@ -30,14 +30,14 @@ const _: () = assert!(MAX_PARTS <= 1 << PART_BITS && MAX_POLYGON_VERTICES <= 1 <
 const _: () =
     assert!(6 * MAX_HULL_VERTICES - 12 <= 1 << EDGE_BITS && 2 * MAX_HULL_VERTICES - 4 <= 1 << FACE_BITS);
 
-/// What is kept of pairs of parts, as they are asked about.
+/// The hints of pairs of parts, read and written as the pairs are tested.
 pub(crate) struct Kept {
-    /// Of last frame.
+    /// Last frame's hint.
     last: Hint,
     next: [Option<Place>; 2],
 }
 
-/// What a pair of parts leaves.
+/// The hint of one pair of parts.
 #[derive(Clone, Copy)]
 struct Place {
     bits: u64,
@@ -47,7 +47,7 @@ struct Place {
 }
 
 impl Place {
-    /// Whether it makes room for another.
+    /// Whether it gives up its place to another.
     fn yields_to(&self, other: &Self) -> bool {
         if self.is_held == other.is_held { other.separation < self.separation } else { other.is_held }
     }
@@ -58,13 +58,13 @@ impl Kept {
         Self { last, next: [None; 2] }
     }
 
-    /// What last frame left for a pair of parts.
+    /// Last frame's hint for a pair of parts.
     pub(crate) fn of(&self, parts: [u32; 2]) -> Hint {
         let places = self.last.of_parts().unwrap_or_default();
         places.into_iter().find(|&bits| is_of(bits, parts)).map_or(Hint::NONE, unpacked)
     }
 
-    /// What a pair of parts that touch leaves.
+    /// Stores the hint of a pair of parts that touch, if there is a place for it.
     pub(crate) fn offer(&mut self, parts: [u32; 2], hint: Hint, separation: f32) {
         let Some(features) = packed(hint) else { return };
         let place = u64::from(parts[0]) | u64::from(parts[1]) << PART_BITS;
@@ -83,13 +83,13 @@ impl Kept {
         }
     }
 
-    /// For the next frame.
+    /// The hint for the next frame.
     pub(crate) fn hint(&self) -> Hint {
         Hint::for_parts(self.next.map(|place| place.map_or(0, |place| place.bits)))
     }
 }
 
-/// Whether bits are a hint of these parts.
+/// Whether these bits are the hint of these parts.
 fn is_of(bits: u64, parts: [u32; 2]) -> bool {
     let part = |at: u32| (bits >> at) as u32 & ((1 << PART_BITS) - 1);
     kind(bits) != 0 && [part(FEATURE_BITS), part(FEATURE_BITS + PART_BITS)] == parts
@@ -99,13 +99,13 @@ fn kind(bits: u64) -> u64 {
     bits >> (FEATURE_BITS - 2) & 3
 }
 
-/// Features in so few bits; nothing where they do not fit, or of a direction.
+/// A hint's features in 24 bits; `None` where they do not fit, or for a direction.
 fn packed(hint: Hint) -> Option<u64> {
     let fits = |index: u32, bits: u32| (index >> bits == 0).then_some(u64::from(index));
     let features = hint.features()?;
     let (owner, feature) = match (features.a(), features.b()) {
         (Feature::Edge(a), Feature::Edge(b)) => {
-            // Points on a face matter more than the axis: they are what a solver stands on.
+            // The face that points lie on matters more than the axis: a solver stands on it.
             return match hint.points_on() {
                 None => Some(1 << 22 | fits(a, EDGE_BITS)? << EDGE_BITS | fits(b, EDGE_BITS)?),
                 Some(OnFace::OfA(face)) => Some(2 << 22 | fits(face, FACE_BITS)? << 11),

@@ -1,8 +1,8 @@
 //! Several numbers side by side: arrays whose operations LLVM turns into vector instructions, on any target.
 //!
-//! No intrinsics and no widths: a lane's arithmetic is that of a single number, in the order in which it is
-//! written, and so its bits are the same at every width. What is written to memory comes out as vectors; what stays
-//! in registers all the way often comes out as scalars.
+//! No intrinsics and no widths: a lane's arithmetic is that of a single number, in the order in which it is written, so
+//! its bits are the same at every width. Values written to memory compile to vectors; those that stay in registers all
+//! the way often compile to scalars.
 
 use core::ops::{Add, Mul, Sub};
 
@@ -25,19 +25,19 @@ impl<const N: usize> Lanes<N> {
         self.map(f64::abs)
     }
 
-    /// As numbers of half the width hold them.
+    /// Rounded to f32.
     #[inline(always)]
     pub(crate) fn rounded(self) -> Self {
         self.map(|lane| f64::from(lane as f32))
     }
 
-    /// The lesser lane by lane; where either is no number, that of `other`.
+    /// The lesser, lane by lane; if either is NaN, that of `other`.
     #[inline(always)]
     pub(crate) fn least(self, other: Self) -> Self {
         self.zip(other, |a, b| if a < b { a } else { b })
     }
 
-    /// The greater lane by lane; where either is no number, that of `other`.
+    /// The greater, lane by lane; if either is NaN, that of `other`.
     #[inline(always)]
     pub(crate) fn greatest(self, other: Self) -> Self {
         self.zip(other, |a, b| if a > b { a } else { b })

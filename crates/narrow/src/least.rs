@@ -1,16 +1,16 @@
-//! The least of several separations: what two bodies made of parts are apart.
+//! The least of several separations: that of two bodies made of parts.
 
 use crate::precision::round_down;
 
-/// Pairs of parts, asked one after the other, of which the nearest counts. The dimension does not matter here.
+/// Finds the nearest of the pairs of parts that are tested one after the other, for either dimension.
 pub(crate) struct Least<P> {
-    /// Beyond it nobody wants to know.
+    /// No larger separation is wanted.
     limit: f64,
-    /// Parts further apart than this need no looking at: the limit, or the least separation so far.
+    /// Parts further apart than this are skipped: the limit, or the least separation so far.
     reach: f64,
-    /// The least bound of parts that were given up on.
+    /// The least bound of parts that were skipped.
     beyond: f32,
-    /// The least that any separation may truly be.
+    /// The least that any separation may truly be, given its error.
     lowest: f64,
     best: Option<Nearest<P>>,
 }
@@ -31,12 +31,12 @@ impl<P> Least<P> {
         self.reach
     }
 
-    /// Whether parts at least so far apart need no looking at; if so they are done with.
+    /// Whether parts at least `at_least` apart can be skipped; if so, notes their bound.
     pub(crate) fn passes_over(&mut self, at_least: f64) -> bool {
         self.passes_below(at_least, f64::INFINITY)
     }
 
-    /// The same where others are known to be at most so far apart.
+    /// The same, where other parts are known to be at most `at_most` apart.
     pub(crate) fn passes_below(&mut self, at_least: f64, at_most: f64) -> bool {
         let is_out_of_reach = at_least > self.reach.min(at_most);
         if is_out_of_reach {
@@ -45,9 +45,9 @@ impl<P> Least<P> {
         is_out_of_reach
     }
 
-    /// Whether parts at least so far apart are no nearer than the nearest so far but for its error, and need no looking
-    /// at. Where that one is a hair away, others may overlap within the error: they are looked at, since the sign is
-    /// exact.
+    /// Whether parts at least `at_least` apart can be skipped, since they are no nearer than the nearest so far, but
+    /// for its error. Not where that one has a hair of a gap and these may overlap: the sign is exact, so they are
+    /// tested.
     pub(crate) fn is_no_less(&self, at_least: f64) -> bool {
         self.best.as_ref().is_some_and(|best| {
             at_least >= f64::from(best.separation) - f64::from(best.error)
@@ -55,12 +55,12 @@ impl<P> Least<P> {
         })
     }
 
-    /// Parts that turned out to be at least so far apart, and that beyond reach.
+    /// Notes parts that turned out to be out of reach: at least `at_least` apart.
     pub(crate) fn give_up(&mut self, at_least: f32) {
         self.beyond = self.beyond.min(at_least);
     }
 
-    /// Parts whose separation was measured. Of equals, the first counts.
+    /// Notes parts whose separation was measured. Of equals, the first counts.
     pub(crate) fn offer(&mut self, parts: P, separation: f32, error: f32) {
         self.lowest = self.lowest.min(f64::from(separation) - f64::from(error));
         if self.best.as_ref().is_none_or(|known| separation < known.separation) {
@@ -69,10 +69,11 @@ impl<P> Least<P> {
         }
     }
 
-    /// The nearest parts, and an error that covers all others; or how far apart all are at least, beyond the limit.
+    /// The nearest parts, and an error that covers all others; or, beyond the limit, a lower bound on how far apart all
+    /// are.
     pub(crate) fn finish(self) -> Result<(P, f32), f32> {
         let Nearest { parts, separation, error } = self.best.ok_or(self.beyond)?;
-        // Beyond the limit, parts that were given up on may be nearer than the one that was measured.
+        // Beyond the limit, parts that were skipped may be nearer than the ones that were measured.
         if f64::from(separation) > self.limit && separation > self.beyond {
             return Err(self.beyond);
         }
@@ -83,8 +84,8 @@ impl<P> Least<P> {
 }
 
 impl<C> Least<Option<C>> {
-    /// Takes what was asked of two parts within reach: their closest points, with how far apart they are and by how
-    /// much that may be off; or nothing, where they overlap. Whether it is enough, since nothing is nearer.
+    /// Takes the answer for two parts within reach: their closest points, of which `told` gives distance and error; or
+    /// `None` if they overlap. Returns whether the search can stop, as nothing can be nearer.
     pub(crate) fn hear(&mut self, found: Result<Option<C>, f32>, told: impl Fn(&C) -> [f32; 2]) -> bool {
         match found {
             Err(at_least) => self.give_up(at_least),

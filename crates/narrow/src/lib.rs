@@ -17,10 +17,11 @@
 //! size            the sum of both bounding radii
 //! ```
 //! Where the shapes are apart, the separation is their Euclidean distance; where they overlap, it is minus the length
-//! of the shortest translation that separates them. Of compounds and of ground it is the least over their parts, each
-//! convex: what parts that one pair may leave others overlapping. Shapes are closed: touching counts as overlapping.
+//! of the shortest translation that separates them. For compounds and ground it is the least over all pairs of convex
+//! parts: the translation that separates that pair may leave others overlapping. Shapes are closed: touching counts as
+//! overlapping.
 //!
-//! - `overlaps` is exact. [`Tier`] says what it took.
+//! - `overlaps` is exact. [`Tier`] says which level of precision it took.
 //! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.
 //! - `separation <= 0` exactly when `overlaps`; `distance` has points exactly when not. Where the rounded number
 //!   disagrees with the exact answer it becomes zero, or the least positive f32.
@@ -30,7 +31,7 @@
 //!
 //! `docs/accuracy.md` derives the bounds.
 //!
-//! To ask about the same pairs frame after frame, hand back the [`Hint`] that each answer left. Of bodies that hardly
+//! To ask about the same pairs frame after frame, hand back the [`Hint`] that each answer left. For bodies that hardly
 //! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one
 //! costs.
 //!

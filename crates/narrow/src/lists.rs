@@ -1,4 +1,4 @@
-//! Memory for lists that a thread keeps from one question to the next: who asks every frame allocates nothing.
+//! Lists that a thread keeps from one question to the next, so that asking every frame allocates nothing.
 
 use crate::answer::{Manifold2, Manifold3};
 use crate::feature::Hint;
@@ -14,10 +14,10 @@ thread_local! {
     static MANIFOLDS3: Cell<Vec<Vec<Manifold3>>> = const { Cell::new(Vec::new()) };
 }
 
-/// Lists of a thread that nobody has at the moment.
+/// A thread's lists that are not in use.
 pub(crate) type Lists<T> = LocalKey<Cell<Vec<Vec<T>>>>;
 
-/// Hands out an empty list, and takes it back. A question within a question gets another one.
+/// Lends an empty list to `ask`, and takes it back. A question within a question gets another list.
 pub(crate) fn with_list<T, R>(lists: &'static Lists<T>, ask: impl FnOnce(&mut Vec<T>) -> R) -> R {
     let mut list = take_list(lists);
     let answer = ask(&mut list);
@@ -25,9 +25,9 @@ pub(crate) fn with_list<T, R>(lists: &'static Lists<T>, ask: impl FnOnce(&mut Ve
     answer
 }
 
-/// An empty list, for who gives it back.
+/// An empty list, for a caller who gives it back.
 pub(crate) fn take_list<T>(lists: &'static Lists<T>) -> Vec<T> {
-    // A thread that is about to end has no place for them any more.
+    // A thread that is ending has no place for lists any more.
     let mut all = lists.try_with(Cell::take).unwrap_or_default();
     let mut list = all.pop().unwrap_or_default();
     let _ = lists.try_with(|place| place.set(all));
@@ -35,14 +35,14 @@ pub(crate) fn take_list<T>(lists: &'static Lists<T>) -> Vec<T> {
     list
 }
 
-/// Keeps a list for who asks next.
+/// Keeps a list for the next question.
 pub(crate) fn give_back<T>(lists: &'static Lists<T>, list: Vec<T>) {
     let mut all = lists.try_with(Cell::take).unwrap_or_default();
     all.push(list);
     let _ = lists.try_with(|place| place.set(all));
 }
 
-/// The manifolds of a pair in the plane within a margin.
+/// Lends the manifolds of a pair in the plane within a margin.
 pub(crate) fn with_manifolds2<R>(pair: &Pair2, margin: f32, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
     with_list(&MANIFOLDS2, |manifolds| {
         pair.add_manifolds(margin, manifolds);

@@ -1,26 +1,26 @@
-//! Points in space whose ends are plumb: one is the foot of the other, along the normal as it was rounded.
+//! Points in space whose two anchors are plumb: each is the foot of the other along the rounded normal.
 //!
-//! So they have in common what makes one of them the other, bit by bit, and of a point that is kept from frame to frame
-//! one end is enough (`persistent3::solids`). The end that is moved goes by some 1e-7 of how deep the point is.
+//! So one anchor of a point follows from the other, bit for bit, and a point that is kept from frame to frame needs
+//! only one (`persistent3::solids`). The anchor that is moved goes by some 1e-7 of the point's depth.
 //!
-//! The end that lies much further from its body's position is always the one that is moved: on a floor as wide as a
-//! town it was rounded to millimetres, and kept, it took the other with it.
+//! The anchor that lies much further from its body's position is always the one that is moved: on a floor as wide as a
+//! town it was rounded to millimetres; if it stayed, it would take the other with it.
 
 use crate::answer::Manifold3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
-/// How much further an end may be from its body's position than the other, squared, and be the one that stays.
+/// How much further from its body's position than the other an anchor may be and still be the one that stays, squared.
 const MUCH: f64 = 16.0;
 
-/// Whether the ends on A stay: those on the body whose face points are not measured from, unless they reach out further
-/// by much. By the squares of how far both reach.
+/// Whether the anchors on A stay, by the squares of how far both reach. Those on the incident body do, opposite the
+/// reference face, unless they reach much further.
 #[inline(always)]
 pub(crate) fn stays_on_a(is_from_b: bool, [of_a, of_b]: [f64; 2]) -> bool {
     if is_from_b { of_a <= of_b * MUCH } else { of_b > of_a * MUCH }
 }
 
 impl Manifold3 {
-    /// Moves one end of each point to the foot of the other. From A's position to B's it is so far, in metres. Cost:
+    /// Moves one anchor of each point to the foot of the other. `offset` is from A's position to B's, in metres. Cost:
     /// linear in the points.
     #[inline(always)]
     pub(crate) fn plumb(&mut self, is_from_b: bool, offset: DVec3) {
@@ -38,7 +38,7 @@ impl Manifold3 {
         }
     }
 
-    /// Whether it is plumb already by the ends on A, or on B, in every bit.
+    /// Whether it is plumb already, bit for bit, with the anchors on A held, or those on B.
     #[inline(always)]
     pub(crate) fn is_plumb(&self, is_by_a: bool, offset: DVec3) -> bool {
         let normal = self.normal.as_dvec3();
@@ -53,19 +53,19 @@ impl Manifold3 {
     }
 }
 
-/// A point's end on A by that on B: from A's position to B's it is so far, and from the end on A to that on B.
+/// A point's anchor on A from that on B: `offset` is from A's position to B's, `out` from the anchor on A to that on B.
 #[inline(always)]
 pub(crate) fn end_on_a(on_b: DVec3, offset: DVec3, out: DVec3) -> DVec3 {
     on_b + offset - out
 }
 
-/// A point's end on B by that on A.
+/// A point's anchor on B from that on A.
 #[inline(always)]
 pub(crate) fn end_on_b(on_a: DVec3, offset: DVec3, out: DVec3) -> DVec3 {
     on_a - offset + out
 }
 
-/// Both ends by one of them.
+/// Both anchors from the one that is held.
 #[inline(always)]
 pub(crate) fn ends(held: DVec3, is_by_a: bool, offset: DVec3, out: DVec3) -> [DVec3; 2] {
     if is_by_a { [held, end_on_b(held, offset, out)] } else { [end_on_a(held, offset, out), held] }

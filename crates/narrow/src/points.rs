@@ -1,4 +1,4 @@
-//! Contact points where they are: a short list that is copied like a number.
+//! Contact points stored in place: a short list that is copied like a number.
 
 use crate::answer::{ContactPoint2, ContactPoint3};
 use crate::feature::{Feature, FeatureId};
@@ -6,10 +6,10 @@ use asunder_geometry::glam::{Vec2, Vec3};
 use core::fmt;
 use core::ops::{Deref, DerefMut};
 
-/// Up to `N` contact points, in place; reads as a slice.
+/// Up to `N` contact points, stored in place; reads as a slice.
 ///
-/// A list of its own since it is [`Copy`]: `arrayvec`'s has something to drop, and to forget last frame's manifolds
-/// each of them was read once more, a twenty-fifth of a frame of boxes or pyramids (AMD EPYC, Zen 4, 2026-11-23).
+/// Its own type because it is [`Copy`]: `arrayvec`'s list has drop glue, so dropping last frame's manifolds read each
+/// of them once more, a twenty-fifth of a frame of boxes or pyramids (AMD EPYC, Zen 4, 2026-11-23).
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -25,12 +25,12 @@ use core::ops::{Deref, DerefMut};
 /// ```
 #[derive(Clone, Copy)]
 pub struct ContactPoints<P, const N: usize> {
-    /// What lies past the last of them means nothing.
+    /// Entries past `count` mean nothing.
     list: [P; N],
     count: u32,
 }
 
-/// What may be a contact point.
+/// A point with a blank value.
 pub(crate) trait Blank: Copy {
     const BLANK: Self;
 }
@@ -49,7 +49,7 @@ impl Blank for ContactPoint3 {
 
 #[allow(private_bounds, reason = "points of the plane and of space are all there are")]
 impl<P: Blank, const N: usize> ContactPoints<P, N> {
-    /// None.
+    /// An empty list.
     ///
     /// ```
     /// use asunder_narrow::{ContactPoint3, ContactPoints};
@@ -61,7 +61,7 @@ impl<P: Blank, const N: usize> ContactPoints<P, N> {
 }
 
 impl<P: Copy, const N: usize> ContactPoints<P, N> {
-    /// Adds a point at the end, if there is room; whether there was.
+    /// Adds a point at the end if there is room, and returns whether there was.
     ///
     /// ```
     /// use asunder_narrow::{ContactPoint2, ContactPoints, Feature, FeatureId};
@@ -82,7 +82,7 @@ impl<P: Copy, const N: usize> ContactPoints<P, N> {
         has_room
     }
 
-    /// What is made of each point of another list, in place of what there was: there is room for all, and nobody asks.
+    /// Replaces the list by what `make` makes of each point of another: same capacity, so no check for room.
     #[inline(always)]
     pub(crate) fn fill<Q>(&mut self, from: &ContactPoints<Q, N>, make: impl Fn(&Q) -> P) {
         for (place, point) in self.list.iter_mut().zip(&**from) {
@@ -91,18 +91,18 @@ impl<P: Copy, const N: usize> ContactPoints<P, N> {
         self.count = from.count;
     }
 
-    /// Forgets all.
+    /// Removes all points.
     #[inline]
     pub fn clear(&mut self) {
         self.count = 0;
     }
 
-    /// Keeps the first so many, if there are more.
+    /// Keeps the first `count` points, if there are more.
     pub fn truncate(&mut self, count: usize) {
         self.count = self.count.min(u32::try_from(count).unwrap_or(u32::MAX));
     }
 
-    /// Takes one out, if it is there; those after it move up.
+    /// Removes and returns a point, if it is there; those after it move up.
     pub fn remove(&mut self, index: usize) -> Option<P> {
         let point = *self.get(index)?;
         self.list.copy_within(index + 1..self.count as usize, index);
@@ -110,14 +110,14 @@ impl<P: Copy, const N: usize> ContactPoints<P, N> {
         Some(point)
     }
 
-    /// Keeps those of which this is true, in their order.
+    /// Keeps the points for which `keep` is true, in their order.
     pub fn retain(&mut self, mut keep: impl FnMut(&P) -> bool) {
         let all = *self;
         self.clear();
         self.extend(all.into_iter().filter(|point| keep(point)));
     }
 
-    /// Whether there is no room for another.
+    /// Whether there is no room for another point.
     pub const fn is_full(&self) -> bool {
         self.count as usize == N
     }
@@ -157,7 +157,7 @@ impl<P: fmt::Debug, const N: usize> fmt::Debug for ContactPoints<P, N> {
     }
 }
 
-/// Those for which there is room: the first.
+/// Adds points for as long as there is room.
 impl<P: Copy, const N: usize> Extend<P> for ContactPoints<P, N> {
     #[inline]
     fn extend<I: IntoIterator<Item = P>>(&mut self, points: I) {
@@ -169,7 +169,7 @@ impl<P: Copy, const N: usize> Extend<P> for ContactPoints<P, N> {
     }
 }
 
-/// The first for which there is room.
+/// The first points, for as long as there is room.
 impl<P: Blank, const N: usize> FromIterator<P> for ContactPoints<P, N> {
     fn from_iter<I: IntoIterator<Item = P>>(points: I) -> Self {
         let mut list = Self::new();

@@ -1,14 +1,14 @@
-//! The error that goes with a separation: one place for the whole crate.
+//! The error that is reported with a separation: one place for the whole crate.
 //!
-//! Kernels propose an axis and evaluate it by full projection in f64. What separates the reported number from the
-//! truth is, in metres (`docs/accuracy.md` derives each constant):
+//! Kernels propose an axis and evaluate it by full projection in f64. The reported number may differ from the truth by
+//! the sum of these, in metres (`docs/accuracy.md` derives each constant):
 //!
-//! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter; in space a
-//!    projection is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of
-//!    compounds, 128 and 16;
-//! 2. *ceiling*, in overlap: the true best axis may be one that was proposed a little beside its place. An axis that is
-//!    off by an angle shows at most that times `reach` too little: once more the projection error for a face, and that
-//!    over the sine of their angle for two edges. What is left is by how much any candidate could beat the best;
+//! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter. In space a
+//!    projection is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of compounds,
+//!    128 and 16;
+//! 2. *ceiling*, in overlap: the true best axis may have been proposed slightly off its place. An axis that is off by
+//!    an angle shows at most that angle times `reach` too little: once more the projection error for a face, and that
+//!    over the sine of their angle for two edges. What counts is by how much any candidate could beat the best;
 //! 3. edges so nearly parallel that they propose nothing: [`Precision::of_parallel_edges`];
 //! 4. faces that are flat only up to the planarity error;
 //! 5. the gap between the two certified bounds, where a distance was iterated;
@@ -22,36 +22,36 @@ pub(crate) use asunder_geometry::round_down;
 pub(crate) struct Precision {
     /// Sum of the cores' bounding radii; a half-space has none.
     pub(crate) size: f64,
-    /// The sum of all lengths that go into a coordinate: no projection meets a greater one.
+    /// The sum of all lengths that go into a coordinate: no term of a projection is greater.
     pub(crate) reach: f64,
-    /// Sum of the two planarity errors.
+    /// Sum of the two shapes' planarity errors.
     pub(crate) planarity: f64,
-    /// Roundings of a projection, in units of 2^-53 of the reach: one of the constants below.
+    /// Rounding error of a projection, in units of 2^-53 of the reach: one of the constants below.
     pub(crate) roundings: f64,
 }
 
-/// Roundings of a projection in space, of bodies and of parts of compounds: those have two rotations and two shifts in
-/// place of one.
+/// Rounding error of a projection in space, for bodies and for parts of compounds; for a part, two rotations and two
+/// shifts are applied in place of one.
 pub(crate) const IN_SPACE: [f64; 2] = [44.0, 128.0];
 
-/// Roundings of a projection in the plane, where the stored matrix is used as it stands, of bodies and of parts.
+/// Rounding error of a projection in the plane, where the stored matrix is used as it stands: for bodies and for parts.
 pub(crate) const IN_PLANE: [f64; 2] = [10.0, 16.0];
 
-/// At least the length of a vector: a sum of coordinates needs no root.
+/// An upper bound on the length of a vector: a sum of coordinates needs no root.
 #[inline]
 pub(crate) fn length_at_most(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
 impl Precision {
-    /// Of two bodies in space whose separation is a closed form, in the world's axes.
+    /// For two bodies in space whose separation is a closed form, in the world's axes.
     #[inline]
     pub(crate) const fn of_closed_form(reach: f64) -> Self {
         Self { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] }
     }
 
-    /// Whether a distance and what its axis shows of all corners are one up to rounding, so that the bound of
-    /// projections, 44 units, covers both: what either takes of it is in `docs/accuracy.md`.
+    /// Whether a distance and the projection of all corners on its axis agree up to rounding, so that the bound of
+    /// projections, 44 units, covers both: `docs/accuracy.md` says how much of it each takes.
     #[inline]
     pub(crate) fn is_proved(&self, distance: f64, at_least: f64) -> bool {
         distance - at_least <= self.projection() / 8.0
@@ -63,54 +63,54 @@ impl Precision {
         self.roundings * (f64::EPSILON / 2.0) * self.reach
     }
 
-    /// So much of the diameter of a body with this bounding radius, the smaller one of a pair, and never less than
-    /// rounding: what preferences and places of features are measured by. In metres.
+    /// This share of the diameter of a body with this bounding radius, the smaller of a pair, but never less than
+    /// rounding. In metres. Preferences, and the places of features, are measured by it.
     #[inline]
     pub(crate) fn share(&self, share: f64, radius: f64) -> f64 {
         (share * 2.0 * radius).max(self.projection())
     }
 
-    /// Below this depth an overlap has no direction: what rounding, and faces that are not quite flat, may make of one.
+    /// Below this depth an overlap has no direction: rounding, and faces that are not quite flat, may account for it.
     #[inline]
     pub(crate) fn doubt_of_depth(&self) -> f64 {
         8.0 * self.projection() + 4.0 * self.planarity
     }
 
-    /// How much less than the truth an axis may show that is normal to a face.
+    /// How much less than the truth the separation along a face's normal may be.
     #[inline]
     pub(crate) fn of_face(&self) -> f64 {
         self.projection()
     }
 
-    /// How much less than the truth an axis may show that is normal to two edges; by the square of the sine between
-    /// them.
+    /// How much less than the truth the separation along the cross product of two edges may be, by the square of the
+    /// sine of their angle.
     #[inline]
     pub(crate) fn of_edges(&self, squared_sine: f64) -> f64 {
         self.projection() / squared_sine.sqrt()
     }
 
-    /// By how much the best axis may fall short for a pair of edges that proposed none, by the square of the sine
-    /// between them.
+    /// By how much the best axis may fall short because a pair of edges is too parallel to propose one, by the square
+    /// of the sine of their angle.
     #[inline]
     pub(crate) fn of_parallel_edges(&self, squared_sine: f64) -> f64 {
         5.0 * (squared_sine.sqrt() * self.reach + self.projection())
     }
 
-    /// Error of a separation found by exhausting the candidate axes, which could be greater by `short`.
+    /// Error of a separation found by testing all candidate axes, which could be greater by `short`.
     pub(crate) fn of_separation(&self, separation: f64, short: f64) -> f32 {
         self.rounded_up(short.max(0.0) + self.projection() + 4.0 * self.planarity, separation)
     }
 
     /// Error of a distance known to lie in an interval of this length.
     pub(crate) fn of_distance(&self, distance: f64, gap: f64) -> f32 {
-        // Bounds the wrong way round are rounding too.
+        // Bounds in the wrong order are rounding too.
         self.rounded_up(gap.abs() + self.projection(), distance)
     }
 
-    /// The separation of cores whose distance has two bounds, less both radii; and how far the bounds are apart.
+    /// The separation of cores whose distance has two bounds, less both radii; and the gap between the bounds.
     pub(crate) fn of_gap(&self, distance: f64, at_least: f64, radii: f64) -> (f64, f64) {
         let gap = distance - at_least;
-        // Where both bounds meet up to rounding, the projection went through less of it.
+        // Where both bounds agree up to rounding, the projection has lost less to it.
         let is_met = radii > 0.0 && gap <= self.projection();
         (if is_met { at_least } else { distance } - radii, gap)
     }
@@ -121,8 +121,7 @@ impl Precision {
     }
 }
 
-/// A separation in f32 whose sign is the decision's: never positive for shapes that overlap, always for those that
-/// do not.
+/// A separation in f32 with the sign of the exact answer: at most zero for shapes that overlap, else positive.
 pub(crate) fn signed(separation: f64, overlapping: bool) -> f32 {
     let rounded = separation as f32;
     if overlapping { rounded.min(0.0) } else { rounded.max(f32::from_bits(1)) }

@@ -1,17 +1,17 @@
-//! Where the manifolds of a pair go, so that they are made where they stay.
+//! Where the manifolds of a pair go: they are large, and written in place.
 
 use crate::answer::Manifold3;
 use crate::polyhedron::cuboids::asked::Contact;
 
-/// Where manifolds go. They are large, and filled in where they stay.
+/// Where manifolds go.
 pub(crate) trait Room {
     fn is_wanted(&self) -> bool;
 
-    /// A blank one for a manifold of this separation, unless that is not wanted.
+    /// A blank place for a manifold of this separation, unless that is not wanted.
     fn room(&mut self, separation: f32) -> Option<&mut Manifold3>;
 }
 
-/// All of them, or none.
+/// All manifolds, or none.
 impl Room for Option<&mut Vec<Manifold3>> {
     fn is_wanted(&self) -> bool {
         self.is_some()
@@ -24,7 +24,7 @@ impl Room for Option<&mut Vec<Manifold3>> {
     }
 }
 
-/// The deepest; of equals, the first.
+/// The deepest manifold; of equals, the first.
 pub(crate) struct Deepest(pub(crate) Option<Manifold3>);
 
 impl Room for Deepest {
@@ -38,7 +38,7 @@ impl Room for Deepest {
     }
 }
 
-/// Asks for a contact whose manifold is filled in where it will stay.
+/// Asks for a contact whose manifold is written in place, at the end of the list.
 #[inline(always)]
 pub(crate) fn in_place(
     manifolds: &mut Vec<Manifold3>,

@@ -1,4 +1,5 @@
-//! What a body stands on, leans against or is stuck in, while it is asked what it meets of another.
+//! What a body stands on, leans against or is stuck in: what [`next_impact_beside`](Pair3::next_impact_beside) passes
+//! over.
 
 use crate::answer::{Manifold2, Manifold3};
 use crate::lists::{with_manifolds2, with_manifolds3};
@@ -6,7 +7,8 @@ use crate::pair2::Pair2;
 use crate::pair3::Pair3;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// What a body touches beside the other of a pair: the tile that it stands on, where the next one is asked about.
+/// A contact of a body with something besides the other body of a pair: the tile that it stands on, when the next tile
+/// is asked about.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, glam::Vec3};
@@ -28,11 +30,11 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 pub struct Touch<V> {
     /// Unit axis in world axes, from the body to what it touches.
     pub normal: V,
-    /// How far the two are apart along it, in metres: negative where the body is in.
+    /// How far the two are apart along it, in metres: negative where they overlap.
     pub separation: f32,
 }
 
-/// What a body in the plane touches beside the other of a pair.
+/// A contact of a body in the plane with something besides the other body of a pair: see [`Touch`].
 ///
 /// ```
 /// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
@@ -46,17 +48,17 @@ pub struct Touch<V> {
 /// ```
 pub type Touch2 = Touch<Vec2>;
 
-/// What a body in space touches beside the other of a pair: see [`Touch`].
+/// A contact of a body in space with something besides the other body of a pair: see [`Touch`].
 pub type Touch3 = Touch<Vec3>;
 
 impl Touch<Vec2> {
-    /// Of a contact, for its A or its B.
+    /// From a manifold, as its A or its B sees it.
     pub fn of(manifold: &Manifold2, is_a: bool) -> Self {
         let normal = if is_a { manifold.normal } else { -manifold.normal };
         Self { normal, separation: manifold.separation }
     }
 
-    /// Its axis and separation; nothing where they are none.
+    /// Axis and separation; `None` unless the axis is of unit length and the separation finite.
     pub(crate) fn axis(&self) -> Option<(DVec2, f64)> {
         let is_sound = self.normal.is_normalized() && self.separation.is_finite();
         is_sound.then(|| (self.normal.as_dvec2(), self.separation.into()))
@@ -64,13 +66,13 @@ impl Touch<Vec2> {
 }
 
 impl Touch<Vec3> {
-    /// Of a contact, for its A or its B.
+    /// From a manifold, as its A or its B sees it.
     pub fn of(manifold: &Manifold3, is_a: bool) -> Self {
         let normal = if is_a { manifold.normal } else { -manifold.normal };
         Self { normal, separation: manifold.separation }
     }
 
-    /// Its axis and separation; nothing where they are none.
+    /// Axis and separation; `None` unless the axis is of unit length and the separation finite.
     pub(crate) fn axis(&self) -> Option<(DVec3, f64)> {
         let is_sound = self.normal.is_normalized() && self.separation.is_finite();
         is_sound.then(|| (self.normal.as_dvec3(), self.separation.into()))
@@ -78,7 +80,8 @@ impl Touch<Vec3> {
 }
 
 impl Pair2<'_> {
-    /// Appends what B is to A, if they overlap: one touch a manifold. Cost: of the yes or no, and of the manifolds.
+    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the yes or no, and of the
+    /// manifolds.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
@@ -100,7 +103,8 @@ impl Pair2<'_> {
 }
 
 impl Pair3<'_> {
-    /// Appends what B is to A, if they overlap: one touch a manifold. Cost: of the yes or no, and of the manifolds.
+    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the yes or no, and of the
+    /// manifolds.
     ///
     /// ```
     /// use asunder_geometry::{Sphere, Pose3, Shape3, glam::Vec3};

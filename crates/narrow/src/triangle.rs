@@ -1,13 +1,13 @@
-//! The point of a triangle that is nearest to another.
+//! The point of a triangle that is nearest to a given point.
 
 use asunder_geometry::glam::DVec3;
 
-/// Of the edges that a point lies beyond, the one that it is nearest to, where on it, from 0 to 1, and that place;
-/// nothing of a point that is over the triangle.
+/// Of the edges that a point lies beyond, the one nearest to it: its number, where on it, from 0 to 1, and that point.
+/// `None` for a point that is over the triangle.
 ///
-/// What is nearest lies on an edge that the point is beyond: a point that is not beyond either edge at a corner is no
-/// nearer to that corner than to all else. An edge is a corner and the way to the next; `inwards` turns such a way into
-/// the triangle.
+/// The nearest point lies on an edge that the point is beyond: a point that is beyond neither edge at a corner is no
+/// nearer to that corner than to the rest of the triangle. An edge is a corner and the way to the next; `inwards` turns
+/// such a way into the triangle.
 #[inline(always)]
 pub(crate) fn nearest_on_edges(
     edge: impl Fn(usize) -> (DVec3, DVec3),

@@ -1,4 +1,4 @@
-//! What a body meets next that touches some of the other already, in the plane: see [`level`](crate::level).
+//! What a body that already touches some of another meets next, in the plane: see [`level`](crate::level).
 
 use super::at_start;
 use super::course::Course;
@@ -13,22 +13,22 @@ use crate::touch::Touch2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Chain, Motion2, Shape2};
 
-/// Moments of each half of a motion with a turn that are looked at.
+/// Sampled moments in each half of a motion with a turn.
 pub(super) const MOMENTS: u32 = 16;
 
 /// What is touched at the start.
 pub(super) struct Touched<'t> {
     pair: &'t Pair2<'t>,
     travel: &'t Travel,
-    /// How the two touch each other, where they do.
+    /// The contacts between the two bodies, if they touch.
     contacts: Option<Contacts<'t, Manifold2>>,
-    /// What A touches, which may be B.
+    /// All that A touches, B perhaps among it.
     beside: Contacts<'t, Touch2>,
-    /// Which of the two are ground, and so have no thickness that counts.
+    /// Which of the two are ground, whose thickness does not count.
     are_ground: [bool; 2],
 }
 
-/// Asks with what is touched at the start: each other, where they do, and what A touches.
+/// Calls `ask` with what is touched at the start: the contacts between the two, if they touch, and all that A touches.
 pub(super) fn with_touched<R>(
     (pair, travel): (&Pair2, &Travel),
     (do_touch, touches): (bool, &[Touch2]),
@@ -46,8 +46,8 @@ pub(super) fn with_touched<R>(
 }
 
 impl Touched<'_> {
-    /// Whether two parts that meet at a time of a stretch, along a unit axis from A to B, are no impact: they overlap
-    /// at the start, exactly, and have not parted since; or they are level with what is touched.
+    /// Whether the meeting of two parts at a time of a stretch, along a unit axis from A to B, is no impact: they
+    /// overlap at the start, exactly, and have not been apart since; or they are level with what is touched.
     pub(super) fn passes_over(
         &self,
         pieces: [&Piece; 2],
@@ -58,13 +58,13 @@ impl Touched<'_> {
             || self.lies(pieces, (stretch.start + at * stretch.share, axis)) == Lies::Level
     }
 
-    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch
-    /// with.
+    /// Classifies the meeting of two parts at a fraction, along a unit axis from A to B; at fraction 0, their touch at
+    /// the start.
     fn lies(&self, pieces: [&Piece; 2], (fraction, normal): (f64, DVec2)) -> Lies {
         let stretches = self.travel.stretches();
         let [Some(first), Some(last)] = [stretches.first(), stretches.last()] else { return Lies::Level };
         let [first, last] = [first, last].map(|stretch| Course::over(stretch, pieces, [0.0, 1.0]));
-        // Who turns may be in deepest on the way.
+        // A body that turns may be deepest on the way.
         let is_turning = stretches.iter().any(|stretch| stretch.is_turning());
         let between = if is_turning { 1..2 * MOMENTS } else { 0..0 };
         let gap_at = |axis: DVec2, fraction: f64| match stretches.len() {
@@ -89,7 +89,7 @@ impl Touched<'_> {
         passing.lies(normal, self.contacts.as_ref(), &self.beside)
     }
 
-    /// How far apart points of two parts are, along whatever axis.
+    /// Bounds on how far apart points of two parts are, along any axis.
     fn reach(&self, pieces: [&Piece; 2]) -> Reach {
         let stretches = self.travel.stretches();
         let finite = |radius: f64| if radius.is_finite() { radius } else { 0.0 };
@@ -108,7 +108,7 @@ impl Touched<'_> {
         Reach::new(start, way, start + way + 2.0 * (arms[0] + arms[1]))
     }
 
-    /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
+    /// The thickness of the thinner of two parts, from its middle, in metres; ground's does not count.
     fn thickness(&self, pieces: [&Piece; 2]) -> f64 {
         thinner([0, 1].map(|i| {
             let shape = pieces[i].shape;
@@ -124,8 +124,8 @@ impl Touched<'_> {
         }))
     }
 
-    /// What of a chain is touched, not told, and gone into: seen from where half a thickness of the way is done, unless
-    /// something else is met before.
+    /// An impact at the start with a chain that is touched without a contact, and moved into: found from the manifolds
+    /// after half a thickness of the way, unless something else is met before.
     pub(super) fn across(&self, motions: [&Motion2; 2], first: Option<&Impact2>) -> Option<Impact2> {
         let pair = self.pair;
         let (side, chain, body) = match (pair.shape_a, pair.shape_b) {

@@ -1,4 +1,4 @@
-//! Two convex parts on their way: the gap between them at a time, and for how long it lasts.
+//! Two convex parts on their way: the gap between them at a time, and for how long it certainly lasts.
 
 mod again;
 mod meeting;
@@ -19,25 +19,26 @@ use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 
-/// Rounds after which a cast gives up and tells an impact with the gap that is left. Those that graze take some 25, the
-/// others 1 to 10.
+/// Rounds after which a cast gives up and reports an impact with the gap that is left. Shapes that graze take some 25
+/// rounds, others 1 to 10.
 const MAX_ROUNDS: usize = 96;
 
 /// Rounds after which axes that turn along with a body are tried as well. Beside the face of a body that turns, a fixed
-/// axis shows no more than what its far corner leaves of the gap: what parts slowly by a twentieth more a round, and 96
-/// rounds are not enough to get away from a gap of 0.1 mm. The face's own normal shows all of it.
+/// axis shows only as much of the gap as the far corner of that face leaves: shapes that part slowly get a twentieth
+/// more a round, and 96 rounds are not enough to get away from a gap of 0.1 mm. The face's own normal shows all of the
+/// gap.
 const PATIENT: usize = 12;
 
 /// Tries for one round's step of shapes that turn.
 const MAX_TRIES: usize = 20;
 
-/// What rounding to f32 turns a unit axis by at most.
+/// The most that rounding to f32 turns a unit axis by.
 const ROUNDED: f64 = f32::EPSILON as f64;
 
-/// Share of the gap that a step of shapes that turn may leave unused.
+/// Share of the gap that a step may leave unused, for shapes that turn.
 const UNUSED: f64 = 0.03;
 
-/// Roundings of a projection, in units of 2^-53 of the reach: those of parts of compounds (16) and of searched
+/// Rounding error of a projection, in units of 2^-53 of the reach: that of parts of compounds (16) and of searched
 /// supports (4), the root and quotient of a rotation in between (3), and the product and sum for the offset (3);
 /// rounded up.
 const ROUNDINGS: f64 = 32.0;
@@ -47,36 +48,36 @@ pub(super) struct Course<'a> {
     stretch: &'a Stretch,
     pieces: [&'a Piece<'a>; 2],
     cores: [Core2<'a>; 2],
-    /// Before the first time circles around both are apart, after the second too.
+    /// Circles around both are apart before the first time, and after the second.
     times: [f64; 2],
     radii: f64,
     precision: Precision,
-    /// How far the poses that are given may be beside the smooth way, in metres: a gap of more is one.
+    /// How far the poses that are reported may be off the smooth path, in metres: only a larger gap is certain.
     slack: f64,
-    /// The gap that a step aims at, and the one at which the way ends.
+    /// The gap that a step aims at, and the one at which shapes count as met.
     aim: f64,
     enough: f64,
-    /// Bounds on how fast a vertex turns along an axis, and on its second derivative.
+    /// Bounds on a vertex' speed along an axis, as its body turns, and on its second derivative.
     pace: f64,
     bend: f64,
 }
 
-/// Two parts that touch, or are as good as touching.
+/// Two parts that touch, or count as touching.
 pub(super) struct Touching {
     /// The time within the stretch.
     pub(super) at: f64,
     /// Unit axis from A to B.
     pub(super) axis: DVec2,
-    /// No further apart than this, in metres.
+    /// An upper bound on how far they are apart, in metres.
     pub(super) apart: f64,
     /// Points of both surfaces, relative to A's position.
     pub(super) points: [DVec2; 2],
 }
 
-/// What there is to see at a time.
+/// The gap as found at a time.
 struct Look {
-    /// Unit axis from A to B, and bounds on the separation: what it shows, and that of the points. Neither holds
-    /// the slack.
+    /// Unit axis from A to B, and two bounds on the separation: the gap along the axis, and the distance of the points.
+    /// The slack is in neither.
     axis: DVec2,
     least: f64,
     most: f64,
@@ -84,10 +85,10 @@ struct Look {
     points: [DVec2; 2],
 }
 
-/// The longest step within `rest` that leaves something for certain, or one that leaves little of what there is,
-/// `over`.
+/// The longest step within `rest` that certainly leaves something, or one that leaves little of the `over` that there
+/// is.
 ///
-/// Regula falsi, in the manner of Illinois: the side that stays counts half.
+/// Regula falsi, the Illinois variant: the value at the end that stays counts half.
 fn longest_step((over, rest): (f64, f64), left: impl Fn(f64) -> f64) -> f64 {
     let ([mut low, mut high], mut at_low) = ([0.0, rest], over);
     let mut at_high = left(rest);
@@ -112,12 +113,12 @@ fn longest_step((over, rest): (f64, f64), left: impl Fn(f64) -> f64) -> f64 {
 }
 
 impl<'a> Course<'a> {
-    /// Nothing where circles tell that they do not touch before `end`.
+    /// `None` if circles show that the two do not touch before `end`.
     pub(super) fn new(stretch: &'a Stretch, pieces: [&'a Piece<'a>; 2], end: f64) -> Option<Self> {
         Some(Self::over(stretch, pieces, meeting(stretch, pieces, end)?))
     }
 
-    /// Between two times.
+    /// The course between two times.
     pub(super) fn over(stretch: &'a Stretch, pieces: [&'a Piece<'a>; 2], times: [f64; 2]) -> Self {
         let finite = |length: f64| if length < f64::INFINITY { length } else { 0.0 };
         let radius = |piece: &Piece| f64::from(piece.shape.radius());
@@ -134,7 +135,7 @@ impl<'a> Course<'a> {
             slack += spin.rounding * piece.arm;
         }
         for (which, spin) in stretch.spins.iter().enumerate().filter(|&(which, _)| pieces[which].is_line()) {
-            // Seen from a line that turns, everything turns about it.
+            // Seen from a half-plane that turns, everything turns about it.
             let around = furthest + pieces[0].arm + pieces[1].arm;
             let other = pieces[1 - which].arm * stretch.spins[1 - which].speed;
             bend += spin.swerve * around + 2.0 * spin.speed * (stretch.velocity.length() + pace + other);
@@ -164,7 +165,7 @@ impl<'a> Course<'a> {
             };
             axis = look.axis;
             let rest = self.times[1] - now;
-            // What is as good as touching, and parts, comes no nearer than it is.
+            // Shapes that count as touching, and move apart, get no nearer than they are.
             let is_parting =
                 look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(axis, 0.0);
             let gives_up = round == MAX_ROUNDS;
@@ -188,19 +189,19 @@ impl<'a> Course<'a> {
         None
     }
 
-    /// Whether the gap along an axis, which may be off by a share, gets no less from then on: however fast what turns
-    /// does so.
+    /// Whether the gap along an axis, which may be off by a share, never shrinks from then on, however fast bodies
+    /// turn.
     fn parts(&self, axis: DVec2, off: f64) -> bool {
         self.closing(axis) + self.pace + off * self.stretch.velocity.length() <= 0.0
     }
 
-    /// Whether anybody turns.
+    /// Whether either body turns.
     pub(super) fn is_turning(&self) -> bool {
         self.stretch.is_turning()
     }
 
-    /// Whether A moves away from B along an axis, where they touch: as seen at the point of one of the two cores. A
-    /// round shape that turns about its middle moves as if it did not.
+    /// Whether A moves away from B along an axis where they touch, judged at the point of one of the two cores. A round
+    /// shape that turns about its middle moves as if it did not turn.
     pub(super) fn looks_back(&self, axis: DVec2, touching: &Touching, which: usize) -> bool {
         let radius = f64::from(self.pieces[which].shape.radius());
         let inwards = if which == 0 { -touching.axis } else { touching.axis };
@@ -212,7 +213,7 @@ impl<'a> Course<'a> {
         axis.dot(velocity) < -SAME_NORMAL * velocity.length()
     }
 
-    /// Whether an axis, at least so far, shows a gap for all the time there is.
+    /// Whether the axis of a look shows a gap for all the time that is left.
     fn keeps_apart(&self, look: &Look, now: f64, rest: f64) -> bool {
         if self.bend == 0.0 && self.pace == 0.0 {
             let closing = self.closing(look.axis);
@@ -221,32 +222,32 @@ impl<'a> Course<'a> {
         self.certain(look, now, rest) > self.slack
     }
 
-    /// An upper bound on the speed at which the gap along an axis closes, turning left out.
+    /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
     fn closing(&self, axis: DVec2) -> f64 {
         let velocity = self.stretch.velocity;
         axis.dot(velocity) + 4.0 * f64::EPSILON * velocity.length()
     }
 
-    /// What gap there is for certain, along the axis of a look, from then on until some time later.
+    /// The gap that is certain along the axis of a look, from then until some time later.
     fn certain(&self, look: &Look, now: f64, later: f64) -> f64 {
         let then = self.gap(look.axis, (now + later).min(self.times[1]));
         look.least.min(then) - self.bend * later * later * 0.125 * (1.0 + 1e-9)
     }
 
-    /// For how long the axis shows more than the gap aimed at. The look does.
+    /// For how long the axis of a look, which shows more than the gap aimed at, goes on to do so.
     fn step(&self, look: &Look, now: f64, rest: f64) -> f64 {
         let over = look.least - self.aim;
         let closing = self.closing(look.axis);
         if self.bend == 0.0 && self.pace == 0.0 {
-            // It closes, or they would be apart for good.
+            // The gap closes, or they would be apart for good.
             return over / closing;
         }
         let found = longest_step((over, rest), |later| self.certain(look, now, later) - self.aim);
-        // However fast the points turn, and whichever way.
+        // A step that is safe however fast the points turn, and whichever way.
         found.max(over / (closing.max(0.0) + self.pace)).min(rest)
     }
 
-    /// The same, of an axis that turns along with either body.
+    /// The same for an axis that turns along with either body.
     fn turned_step(&self, look: &Look, now: f64, rest: f64) -> f64 {
         if self.line().is_some() {
             return 0.0;
@@ -259,8 +260,8 @@ impl<'a> Course<'a> {
         turning.map(step).fold(0.0, f64::max)
     }
 
-    /// What gap there is for certain from then on until some time later, along the axis of a look that turns along with
-    /// a body. Seen from there everything else turns about it, as seen from a line.
+    /// The gap that is certain from then until some time later, along the axis of a look that turns along with a body.
+    /// Seen from that body everything else turns about it, as seen from a half-plane.
     fn certain_along(&self, which: usize, look: &Look, now: f64, later: f64) -> f64 {
         let (then, spins) = ((now + later).min(self.times[1]), &self.stretch.spins);
         let axis =
@@ -275,8 +276,8 @@ impl<'a> Course<'a> {
         look.least.min(self.gap(axis, then)) - bend * later * later * 0.125 * (1.0 + 1e-9) - lost
     }
 
-    /// The impact that a look shows. Where nothing turns, its axis leads on to where there is no gap along it, if
-    /// that is nearer.
+    /// The impact that a look shows. If nothing turns, it is moved on to where no gap is left along the look's axis, if
+    /// the two are nearer there.
     fn settled(&self, look: &Look, now: f64) -> Touching {
         let [on_a, on_b] = look.points;
         let rounding = self.precision.projection() + self.slack;
@@ -292,13 +293,13 @@ impl<'a> Course<'a> {
             let moved = self.stretch.velocity * on;
             let points = match [self.pieces[0].is_line(), self.pieces[1].is_line()] {
                 [false, false] => [on_a, on_b - moved],
-                // The foot on a line goes with the other's point.
+                // The foot on a half-plane's line moves with the other's point.
                 [true, _] => [on_b - moved - look.axis * look.axis.dot(on_b - moved - on_a), on_b - moved],
                 [false, true] => [on_a, on_a + look.axis * look.axis.dot(on_b - moved - on_a)],
             };
             let apart = (points[1] - points[0]).length() - self.radii + rounding;
             if apart <= best.apart {
-                // Round shapes touch along the line between their cores as they are then.
+                // Round shapes touch along the line between their cores as these stand then.
                 let across = points[1] - points[0];
                 let is_round =
                     self.radii > 0.0 && self.line().is_none() && across.length() > 1e-6 * self.radii;
@@ -309,7 +310,7 @@ impl<'a> Course<'a> {
         best
     }
 
-    /// Cores that no axis tells apart, for all that rounding lets see: along the axis of poses next to these.
+    /// An impact of cores that, within rounding, no axis separates: along the axis that poses next to these show.
     fn too_close(&self, now: f64, axis: DVec2) -> Touching {
         let beside = |which: usize| {
             let (turn, origin) = self.place(which, now);
@@ -331,8 +332,8 @@ impl<'a> Course<'a> {
         Touching { at: now, axis, apart: self.enough, points: self.on_surfaces(points, axis) }
     }
 
-    /// The straight run of a chain that a segment of it, one of the two, belongs to, as the other sees it at a time.
-    /// Nothing where it does not.
+    /// The straight run of a chain that a segment belongs to (`which` of the two pieces), as seen by the other at a
+    /// time; `None` if the other is on a side that it does not face.
     pub(super) fn surface(&self, which: usize, chain: &Chain, run: &Run, now: f64) -> Option<Surface> {
         let (turn, origin) = self.place(which, now);
         let other = 1 - which;
@@ -340,12 +341,12 @@ impl<'a> Course<'a> {
         Surface::new(chain, run, (&turn, origin), center)
     }
 
-    /// How far apart points may lie that count as one: those of shapes that are as good as touching.
+    /// How far apart points of shapes that count as touching may lie and be one place.
     pub(super) fn nearness(&self) -> f64 {
         2.0 * self.enough
     }
 
-    /// Lines that look away from each other meet as soon as one of them turns.
+    /// Half-planes that face away from each other meet as soon as one of them turns.
     fn lines_that_turn(&self) -> Touching {
         let now = self.times[0];
         let look = self.look_from_line(0, now);
@@ -353,7 +354,7 @@ impl<'a> Course<'a> {
         Touching { at: now, axis: look.axis, apart, points: look.points }
     }
 
-    /// The gap at a time, and the axis that shows it; nothing where the cores are too close to tell.
+    /// The gap at a time, and the axis that shows it; `None` if the cores are too close to tell.
     fn look(&self, now: f64, axis: DVec2) -> Option<Look> {
         if let Some(line) = self.line() {
             return Some(self.look_from_line(line, now));
@@ -376,7 +377,7 @@ impl<'a> Course<'a> {
             return None;
         };
         let Witness { normal, at_least, distance, point_a, point_b, .. } = found;
-        // Corners that all but touch leave no axis.
+        // Corners that almost touch leave no axis.
         normal.is_normalized().then(|| bounds(normal, at_least, distance, [point_a, point_b]))
     }
 
@@ -390,7 +391,7 @@ impl<'a> Course<'a> {
         Look { axis, least: height - rounding, most: height + rounding, points }
     }
 
-    /// A lower bound on the gap along an axis at a time; along a half-plane's own, where there is one.
+    /// A lower bound on the gap along an axis at a time; if one is a half-plane, along its normal.
     pub(super) fn gap(&self, axis: DVec2, now: f64) -> f64 {
         let between = match self.line() {
             Some(line) => self.height(line, now).2,
@@ -428,7 +429,7 @@ impl<'a> Course<'a> {
         self.pieces.iter().position(|piece| piece.is_line())
     }
 
-    /// How a part is turned at a time, and its origin relative to A's position.
+    /// A part's rotation at a time, and its origin relative to A's position.
     fn place(&self, which: usize, now: f64) -> (Turn, DVec2) {
         let turn = self.stretch.spins[which].turn_at(now);
         let body = if which == 0 { DVec2::ZERO } else { self.stretch.offset_at(now) };
@@ -453,7 +454,7 @@ impl<'a> Course<'a> {
         origin + turn.turn(self.pieces[which].shape.center().as_dvec2())
     }
 
-    /// From one part's centre to the other's: any axis to begin with.
+    /// From one part's centre to the other's: an axis to begin with.
     fn towards_b(&self, now: f64) -> DVec2 {
         (self.center(1, now) - self.center(0, now)).try_normalize().unwrap_or(DVec2::Y)
     }

@@ -1,7 +1,7 @@
-//! Casts against chains: segment by segment, those first that circles say are met first.
+//! Casts against chains: segment by segment, in the order in which circles around them are met.
 //!
-//! Each segment is a shape like any other, so that a miss is as certain as of those. What the ground adds is which
-//! sides are seen, and which normals there are: see `ground2`.
+//! Each segment is a shape like any other, so a miss is as certain as for those. Ground adds which sides can be met,
+//! and which normals there are: see `ground2`.
 
 use super::counts::Counts;
 use super::course::{Course, Touching, meeting};
@@ -16,7 +16,7 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Run, Segment2, Shape2};
 
 impl Pair2<'_> {
-    /// The contact with ground that sees the other from the start, if there is one.
+    /// The contact at the start with ground that faces the other body, if there is one.
     pub(super) fn touching_ground_at_start(&self) -> Option<Impact2> {
         if self.shape_a.is_ground() && self.shape_b.is_ground() {
             return self.overlaps().then(|| self.touching_at_start());
@@ -28,7 +28,7 @@ impl Pair2<'_> {
         Some(deepest.as_ref().and_then(at_start).unwrap_or_else(|| self.touching_at_start()))
     }
 
-    /// The first segment and part that touch within a stretch, which may have one before and one after it.
+    /// The first segment and part that touch within a stretch; there may be a stretch before and one after it.
     pub(super) fn first_touch_of_ground(
         &self,
         [before, after]: [Option<&Stretch>; 2],
@@ -49,13 +49,13 @@ impl Pair2<'_> {
     }
 }
 
-/// What is met first, as far as it is known.
+/// The first impact so far.
 struct First<'s> {
-    /// What went before the stretch, if anything did.
+    /// The stretch before this one, if any.
     before: Option<&'s Stretch>,
     stretch: &'s Stretch,
     after: Option<&'s Stretch>,
-    /// When.
+    /// The time of that impact.
     end: f64,
     impact: Option<Impact2>,
     counts: Counts<'s>,
@@ -104,8 +104,8 @@ impl First<'_> {
         });
     }
 
-    /// Where a segment of a chain is met first: one-sided ground that is passed may be met later, from its front, once
-    /// the two are apart; and of a straight run, all of it.
+    /// Where a segment of a chain is met first. One-sided ground that is passed may be met later, from its front, once
+    /// the two are apart, for a straight run from all of it.
     fn met_first(&self, chain: &Chain, pieces: [&Piece; 2], side: usize) -> Option<(Met, Touching)> {
         let mut course = Course::new(self.stretch, pieces, self.end)?;
         loop {
@@ -127,9 +127,9 @@ impl First<'_> {
         }
     }
 
-    /// Whether a part that comes to touch a segment has come to touch other segments of its straight run before, which
-    /// was no impact, and has not been apart from the run since: it passes all of that. One that does not turn, and
-    /// has come through from behind, moves away from the front of each segment.
+    /// Whether a part that comes to touch a segment has touched other segments of its straight run before, without an
+    /// impact, and has not been apart from the run since: then it passes through the whole run. A part that does not
+    /// turn, and has come through from behind, moves away from the front of every segment.
     fn has_passed(
         &self,
         (chain, run): (&Chain, &Run),
@@ -166,12 +166,12 @@ impl First<'_> {
     }
 }
 
-/// Whether two parts came to touch in the stretch before, which was no impact, and have not been apart since.
+/// Whether two parts came to touch in the stretch before, without an impact, and have not been apart since.
 fn is_passed_still(before: &Stretch, pieces: [&Piece; 2]) -> bool {
     last_touch(before, pieces, 1.0).is_some()
 }
 
-/// Where two parts that touch at a time of a stretch have come to touch, and have not been apart since.
+/// Where two parts that touch at a time of a stretch came to touch, not having been apart since.
 fn last_touch(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Option<Touching> {
     let mut rest = Course::new(stretch, pieces, end);
     while let Some((course, touching)) = rest.and_then(|course| course.first_touch().map(|it| (course, it))) {
@@ -183,21 +183,22 @@ fn last_touch(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Option<Touchi
     None
 }
 
-/// Ground where it is met.
+/// How ground is met.
 struct Met {
-    /// From A to B, as it is told.
+    /// The normal that is reported, from A to B.
     axis: DVec2,
-    /// The axis that says whether it is passed over as level with what is touched already.
+    /// The axis that decides whether it is passed over as level with what is touched already.
     level: DVec2,
     run: Run,
 }
 
-/// How the ground is where it is met. Nothing where it does not see the other.
+/// How ground is met by a touch; `None` if it does not face the other.
 ///
-/// The ground's own normal may look the way the other goes, where a corner of it is met. What comes so out of one-sided
-/// ground passes, unless it turns and its middle goes through the segment's front after all. Then, and of other ground,
-/// it is met along the axis that they touch along. But what turns is led over ground by that normal: a box that slides
-/// over a hill, pressed into it, meets the far corners from inside as it leans.
+/// Where a corner is met, the other may move away along the ground's own normal. Coming out of one-sided ground that
+/// way, it passes, unless it turns and its middle goes through the segment's front after all. In that case, and on
+/// two-sided ground, the normal is the axis that the two touch along. But for a body that turns, the ground's own
+/// normal decides what is level: a box that slides over a hill, pressed into it, meets the far corners from inside as
+/// it leans.
 fn surface_met(
     (chain, segment): (&Chain, u32),
     (course, after): (&Course, Option<&Stretch>),

@@ -1,5 +1,5 @@
-//! What of a compound a ball may meet on its way within a stretch, where either body turns: as the compound sees it,
-//! in straight legs.
+//! Which parts of a compound a ball may meet on its way within a stretch, where either body turns: its path, as the
+//! compound sees it, in straight legs.
 //!
 //! ```text
 //! x(t)      the ball's centre from the compound's position, in world axes: an arm that turns, on a straight way
@@ -7,17 +7,18 @@
 //! y''       = u*''x + 2 u*'x' + u*x'',  |u'| <= speed and |u''| <= swerve; the arm's derivatives likewise
 //! leg       from y(s) to y(e) in a straight line: y is never further from it than  max|y''| (e - s)^2 / 8
 //! ```
-//! The last line is that of linear interpolation. Let n point from the leg to y at the time at which they are furthest
-//! apart. Along n their difference is zero at both ends, and its second derivative is no less than -m, m = max|y''|; so
-//! it is below the parabola m (t - s) (e - t) / 2, which has that second derivative everywhere and is zero at both ends
-//! too. Its top is m (e - s)^2 / 8. So a ball on the leg, larger by that, holds the true one at each time. A part whose
-//! box, or whose bounding circle, that larger ball does not meet until a time is met by nothing in the true one until
-//! then. No number of the search for the meeting is part of this, so none need be trusted: what is left out is apart
-//! for certain, and what is left is asked in the order of its numbers, each until what is known, as if nothing had been
-//! left out. The ball is larger, too, by as much as counts as having met, so that of parts that pass within that the
-//! same is told.
+//! The last line is the error of linear interpolation. Let n point from the leg to y at the time at which they are
+//! furthest apart. Along n their difference is zero at both ends, and its second derivative is no less than -m, m =
+//! max|y''|; so it is below the parabola m (t - s) (e - t) / 2, which has that second derivative everywhere and is zero
+//! at both ends too. Its top is m (e - s)^2 / 8. So a ball on the leg, larger by that, contains the true one at each
+//! time. Until this larger ball meets a part's box or bounding circle, nothing in the true one meets the part.
 //!
-//! What it brought stands beside its twin in space, `cast3::legs`.
+//! No number of the search for the meeting enters here, so none need be trusted: parts that are left out are certainly
+//! apart, and the others are tested in the order of their numbers, each up to the first meeting known, as if none had
+//! been left out. The ball is also larger by the gap that counts as met, so that parts which pass within that gap get
+//! the same answer.
+//!
+//! Measured gains stand beside its twin in space, `cast3::legs`.
 
 #[cfg(test)]
 mod tests;
@@ -32,33 +33,34 @@ use asunder_geometry::Compound2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::CAST_GAP2;
 
-/// Legs of a way at most.
+/// The most legs of a path.
 const MAX_LEGS: usize = 32;
 
-/// Share of what a ball and a part of the compound may measure by which a leg may be beside the way.
+/// How far a leg may lie off the path, as a share of the radii of the ball and of the compound's parts.
 const BESIDE: f64 = 0.5;
 
-/// The way of a ball past a compound, from the start of a stretch to a time.
+/// The path of a ball past a compound, from the start of a stretch to a time.
 pub(super) struct Legs {
     legs: ArrayVec<Leg, MAX_LEGS>,
-    /// More than sums, and rotations that are not quite of unit length, lose where the two are near.
+    /// An upper bound on what is lost to sums, and to rotations that are not quite of unit length, where the two are
+    /// near.
     lost: f64,
 }
 
-/// A straight piece of it, in the compound's axes.
+/// A straight piece of the path, in the compound's axes.
 struct Leg {
     /// The time at which it begins, and for how long it lasts.
     from: f64,
     span: f64,
     start: DVec2,
     way: DVec2,
-    /// That of a ball that holds the moved one at any time of it.
+    /// Radius of a ball that contains the moving one at all times of the leg.
     radius: f64,
 }
 
 impl Legs {
-    /// The way of a ball about a piece of the other body, or about all of it, as a compound sees it, A (0) or B (1),
-    /// until a time.
+    /// The path, as a compound (A, 0, or B, 1) sees it, of a ball around a piece of the other body, or around all of
+    /// it, until a time.
     pub(super) fn new(
         stretch: &Stretch,
         (compound, which): (&Compound2, usize),
@@ -94,7 +96,7 @@ impl Legs {
         Self { legs, lost }
     }
 
-    /// Lists the parts whose boxes may be met, each once or more.
+    /// Lists the parts whose boxes may be met, each at least once.
     pub(super) fn walk(&self, compound: &Compound2, numbers: &mut Vec<u32>) {
         for leg in &self.legs {
             let grown = Region2 { center: leg.start, radius: leg.radius }.grown(leg.way, compound);
@@ -105,15 +107,14 @@ impl Legs {
         }
     }
 
-    /// A time before which what is about a point of the compound, in its axes, is not met; nothing where it never
-    /// is.
+    /// A time before which a circle around a point of the compound, in its axes, is not met; `None` if it never is.
     pub(super) fn first_meeting(&self, center: DVec2, radius: f64) -> Option<f64> {
         self.legs.iter().find_map(|leg| leg.meeting(center, radius + self.lost, self.lost))
     }
 }
 
 impl Leg {
-    /// The same, in this leg; all that is computed on the way is off by less than `lost` metres.
+    /// The same for this leg; all that is computed on the way is off by less than `lost` metres.
     fn meeting(&self, center: DVec2, radius: f64, lost: f64) -> Option<f64> {
         count_step();
         let (apart, reach) = (self.start - center, self.radius + radius);
@@ -132,18 +133,18 @@ impl Leg {
         if first > pace || last < 0.0 {
             return None;
         }
-        // A share's rounding is less than a time's.
+        // The rounding of a share is less than that of a time.
         Some((self.from + self.span * (first / pace) - 4.0 * f64::EPSILON).max(self.from))
     }
 }
 
-/// A point of the other body, given in its axes, in the axes of a body at a time.
+/// A point of the other body, given in that body's axes, as seen in the axes of body `which` at a time.
 fn seen(stretch: &Stretch, which: usize, point: DVec2, at: f64) -> DVec2 {
     let (arm, offset) = (stretch.spins[1 - which].turn_at(at).turn(point), stretch.offset_at(at));
     stretch.spins[which].turn_at(at).turn_back(if which == 0 { offset + arm } else { arm - offset })
 }
 
-/// About what the parts of a compound measure: the mean of three bounding radii.
+/// A typical size of the parts of a compound: the mean of three bounding radii.
 fn size_of_parts(compound: &Compound2) -> f64 {
     let parts = compound.parts();
     let some = [parts.first(), parts.get(parts.len() / 2), parts.last()];

@@ -14,13 +14,13 @@ const STRETCH: f64 = 1.0 + 4.0 * f32::EPSILON as f64;
 pub(super) struct Piece<'a> {
     pub(super) index: u32,
     pub(super) shape: &'a Shape2,
-    /// Where it is in its compound; a shape that is none is its own only part.
+    /// Its pose in its compound; a shape that is not a compound is its own only part.
     pub(super) local: Option<&'a Pose2>,
     /// Its bounding circle's centre, in the body's axes.
     pub(super) center: DVec2,
-    /// That circle's radius, however the body is turned; infinite for a half-plane.
+    /// That circle's radius, for any rotation of the body; infinite for a half-plane.
     pub(super) outer: f64,
-    /// The furthest that the body's position is from any vertex of the core, or from the origin of a half-plane.
+    /// The furthest that a vertex of the core, or the origin of a half-plane, is from the body's position.
     pub(super) arm: f64,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Piece<'a> {
         Self::new(shape, shape.center().as_dvec2(), None, index)
     }
 
-    /// What is in a box in a chain's axes, by a circle around it. It stands for the chain, and has no core.
+    /// What is in a box in a chain's axes, as a circle around the box. It stands for the chain, and has no core.
     pub(super) fn boxed(chain: &'a Shape2, bounds: &Aabb2) -> Self {
         let (min, max) = (bounds.min.as_dvec2(), bounds.max.as_dvec2());
         let (center, outer) = ((min + max) * 0.5, (max - min).length() * 0.5 * STRETCH);
@@ -68,15 +68,16 @@ pub(super) fn for_pieces<'a>(shape: &'a Shape2, mut visit: impl FnMut(&Piece<'a>
     }
 }
 
-/// As [`for_pieces`], in the same order, but for those of a compound of many that certainly do not meet a piece of the
-/// other body before a time of a stretch: pieces of A (0), or of B (1), each with a time before which it does not.
+/// As [`for_pieces`], in the same order, but without those of a compound of many parts that certainly do not meet a
+/// piece of the other body until a time of the stretch. For A's pieces (0), or B's (1); each with a time before which
+/// it certainly does not.
 pub(super) fn for_pieces_met<'a>(
     (shape, which): (&'a Shape2, usize),
     stretch: &Stretch,
     (other, until): (&Piece, f64),
     mut visit: impl FnMut(&Piece<'a>, f64),
 ) {
-    // What has no end is everywhere.
+    // An endless shape is everywhere.
     let many = many2(shape).filter(|_| other.outer.is_finite());
     let Some(compound) = many else { return for_pieces(shape, |piece| visit(piece, 0.0)) };
     if !stretch.is_turning() {
@@ -93,7 +94,7 @@ pub(super) fn for_pieces_met<'a>(
     in_order(|numbers| legs.walk(compound, numbers), visit_met);
 }
 
-/// The same of a compound where nobody turns, and perhaps others of its pieces.
+/// The same for a compound where neither body turns. May visit other pieces too.
 fn for_pieces_along<'a>(
     (compound, which): (&'a Compound2, usize),
     stretch: &Stretch,
@@ -113,8 +114,8 @@ fn for_pieces_along<'a>(
     });
 }
 
-/// Where the pieces of a compound are when a stretch begins, in its own axes, that may meet a piece of the other body,
-/// where nobody turns, and how that moves.
+/// Where the pieces of a compound are that may meet a piece of the other body, if neither body turns: a region in the
+/// compound's axes when a stretch begins, and how that region moves.
 fn region(stretch: &Stretch, (compound, which): (&Compound2, usize), other: &Piece) -> (Region2, DVec2) {
     let [own, others] = [which, 1 - which].map(|i| stretch.spins[i].turn_at(0.0));
     let center = others.turn(other.center);

@@ -1,12 +1,12 @@
 //! Where a ray enters a shape of the plane.
 //!
 //! ```text
-//! the ray in the shape's own axes; y = how far a point lies beside it
-//! along the edges that look at the ray's origin, counter-clockwise, y only grows; so it does along the rounded outline of
-//!   edges moved out by the radius and arcs between them
-//! the edge, or the arc, at y = 0 is where the ray goes in: one by one for few vertices, by halving for many
-//! it goes in behind the origin: where it comes out, by the same search from the other end, tells inside from behind
-//! where rounding could tell otherwise, the exact tier says whether the origin is inside
+//! work in the shape's own axes; y = how far a point lies beside the ray
+//! along the edges that face the ray's origin, counter-clockwise, y only grows; so it does along the rounded outline:
+//!   edges moved out by the radius, and arcs between them
+//! the ray goes in at the edge, or the arc, at y = 0: found one by one for few vertices, by halving for many
+//! if that is behind the origin: the exit, by the same search from the other end, tells inside from behind
+//! where rounding could change the answer, the exact tier says whether the origin is inside
 //! ```
 //! One search serves circles, capsules, segments, rectangles and polygons, rounded or not; a half-plane is one
 //! quotient.
@@ -21,7 +21,7 @@ use crate::polygon::outline::{Outline, Turn, is_searched};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Circle, Compound2, Pose2, Ray2, Shape2};
 
-/// Roundings of a coordinate of the ray seen from the shape, in units of 2^-52 of all that is added up: two
+/// Rounding error of a coordinate of the ray seen from the shape, in units of 2^-52 of the sum of all that enters: two
 /// rotations and two quotients of 8 units of 2^-53 at most, differences, and the projection.
 const ROUNDINGS: f64 = 16.0;
 
@@ -29,13 +29,13 @@ const ROUNDINGS: f64 = 16.0;
 /// limit may be infinite; a NaN counts as none, and a negative limit as zero.
 ///
 /// - Whether it starts inside is exact; then the distance is 0 and the normal is against the ray.
-/// - In a compound it meets the part that it enters first, but one that it starts inside of before any other.
+/// - In a compound it meets the part that it enters first, but a part that it starts inside of comes before any other.
 /// - On a chain it meets the segment that it crosses first, from its front if the chain is one-sided, with the normal
 ///   against the ray.
 ///
-/// Cost: 30 to 80 ns for a shape of few vertices; the logarithm of the vertices for a polygon of many; the parts for a
-/// compound, or the logarithm of many and those whose boxes it meets; the segments whose boxes it meets for a chain;
-/// some microseconds where the origin lies on the outline up to rounding.
+/// Cost: 30 to 80 ns for a shape of few vertices; the logarithm of the vertices for a polygon of many; linear in the
+/// parts for a compound of few, else the logarithm of the parts, and those whose boxes it meets; for a chain, the
+/// segments whose boxes it meets; some microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Pose2, Ray2, Shape2, glam::Vec2};
@@ -62,7 +62,8 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
     over_parts((shape, compound), (pose, ray), &beam, limit)
 }
 
-/// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their boxes.
+/// The nearest hit on a compound's parts: if there are few, one after the other; if many, in the order in which their
+/// boxes are met.
 fn over_parts(
     (shape, compound): (&Shape2, &Compound2),
     (pose, ray): (&Pose2, &Ray2),
@@ -84,7 +85,7 @@ fn over_parts(
         }) else {
             return reach;
         };
-        // Of equals, the first; and what it starts inside of before all.
+        // Of equals, the first; but a part that the ray starts inside of comes before all.
         let place = |hit: &RayHit2| (!hit.inside, hit.distance, hit.part);
         first = Some(first.filter(|known| place(known) <= place(&hit)).unwrap_or(hit));
         first.map_or(limit, |known| known.distance)
@@ -108,14 +109,14 @@ struct Beam {
     /// Its length, in metres for a length of the ray's direction, and the unit vector.
     length: f64,
     unit: DVec2,
-    /// The sum of the coordinates that its origin is a sum of.
+    /// The sum of the coordinates, by magnitude, that its origin was computed from.
     summed: f64,
 }
 
 /// How the line of a ray meets a shape.
 enum Way {
     Misses,
-    /// By less than rounding.
+    /// Hits or misses by less than rounding.
     Grazes,
     Enters(Entry),
 }
@@ -124,12 +125,12 @@ enum Way {
 struct Entry {
     /// Metres from the ray's origin; negative behind it.
     along: f64,
-    /// What it may be off by.
+    /// The error of that.
     error: f64,
     normal: DVec2,
 }
 
-/// One convex shape, and all that an exact answer needs.
+/// One convex shape, with all that an exact answer needs.
 struct Asked<'a> {
     shape: &'a Shape2,
     pose: &'a Pose2,
@@ -139,18 +140,18 @@ struct Asked<'a> {
 }
 
 impl Beam {
-    /// Nothing for a direction without length.
+    /// `None` for a direction without length.
     fn new(origin: DVec2, direction: DVec2, summed: f64) -> Option<Self> {
         let length = direction.length();
         (length > 0.0).then(|| Self { origin, direction, length, unit: direction / length, summed })
     }
 
-    /// How far a coordinate may be off, of a shape that reaches so far.
+    /// Rounding error of a coordinate, for a shape that reaches this far.
     fn rounding(&self, reach: f64) -> f64 {
         ROUNDINGS * f64::EPSILON * (self.summed + sum(self.origin) + reach)
     }
 
-    /// Whether it stays outside of a circle for certain, for so many lengths.
+    /// Whether it certainly stays outside of a circle, up to `limit` lengths.
     fn misses(&self, center: DVec2, radius: f64, limit: f64) -> bool {
         let to_center = center - self.origin;
         let radius = radius * (1.0 + 1e-6) + self.rounding(sum(center) + radius);
@@ -182,8 +183,8 @@ impl Asked<'_> {
         })
     }
 
-    /// Whether the origin is inside, of a line that enters before it, or as good as there; nothing where the shape
-    /// is behind.
+    /// Whether the origin is inside, for a line that enters before the origin or within rounding of it; `None` if the
+    /// shape is behind the ray.
     fn is_entered(&self, beam: &Beam, entry: &Entry) -> Option<bool> {
         if matches!(self.shape, Shape2::HalfPlane(_)) {
             return Some(entry.along == f64::NEG_INFINITY || self.is_inside());
@@ -201,7 +202,7 @@ impl Asked<'_> {
         self.behind(doubt, entry)
     }
 
-    /// Not inside: the shape is behind, unless the entry is where the origin is.
+    /// The origin is not inside: the shape is behind, unless the ray enters at the origin.
     fn behind(&self, exit: f64, entry: &Entry) -> Option<bool> {
         (entry.along >= -entry.error && exit >= -entry.error).then_some(false)
     }
@@ -224,8 +225,8 @@ impl Asked<'_> {
         holds2(&Site2 { shape: self.shape, body: *self.pose, part: self.part }, &point)
     }
 
-    /// By how much rotations stretch what they turn: their cosines and sines are rounded. Radii are not, and so are
-    /// smaller by as much, as seen from the shape's axes.
+    /// By how much the rotations stretch what they turn, as cosines and sines are rounded. Radii are not stretched, so
+    /// from the shape's axes they look smaller by as much.
     fn stretch(&self) -> f64 {
         let turns = [Some(self.pose), self.part];
         turns.into_iter().flatten().map(|pose| pose.turn(DVec2::X).length()).product()
@@ -251,7 +252,8 @@ impl Asked<'_> {
     }
 }
 
-/// Into a half-plane, or out of it: what begins inside, or never enters, is told by the exact tier or not at all.
+/// Into a half-plane. A ray that starts inside enters at minus infinity; one that starts on the line, within rounding,
+/// and does not go in is left to the exact tier.
 fn into_half_plane(normal: DVec2, beam: &Beam) -> Way {
     let (height, closing) = (normal.dot(beam.origin), -normal.dot(beam.unit));
     let rounding = beam.rounding(0.0);
@@ -265,24 +267,24 @@ fn into_half_plane(normal: DVec2, beam: &Beam) -> Way {
         return Way::Grazes;
     }
     let along = height / closing;
-    // A direction is off by 4 roundings, and so is what it is stretched to.
+    // A direction is off by 4 roundings, and so is its length.
     let error = (rounding + 8.0 * f64::EPSILON * along.abs()) / closing;
     Way::Enters(Entry { along, error, normal })
 }
 
-/// An outline as it looks from along a ray.
+/// An outline as seen from along a ray.
 struct Seen<'a> {
     outline: &'a Outline<'a>,
     normals: &'a [DVec2],
     beam: &'a Beam,
-    /// Unit vector square to the ray: along it, edges that look at the origin follow one another.
+    /// Unit vector square to the ray: edges that face the origin follow one another along it.
     side: DVec2,
     radius: f64,
     rounding: f64,
 }
 
 impl Seen<'_> {
-    /// Every edge; where it is none of them, every vertex' circle.
+    /// Tests every edge; if none is hit, the circle around every vertex.
     fn one_by_one(&self) -> Way {
         for edge in 0..self.normals.len() {
             if self.beam.unit.dot(self.normals[edge]) < 0.0
@@ -304,7 +306,8 @@ impl Seen<'_> {
         way
     }
 
-    /// By halving, the last edge that begins no further along than the ray; or the arc after it.
+    /// Finds, by halving, the last edge that begins no further along `side` than the ray; the hit is on it, or on the
+    /// arc after it.
     fn search(&self) -> Way {
         let (start, end) = (self.outline.support(-self.side).vertex, self.outline.support(self.side).vertex);
         let count = self.normals.len();
@@ -342,7 +345,7 @@ impl Seen<'_> {
         let (from, to) = (height(edge), height(self.outline.after(edge)));
         let ends = (unit.dot(from), unit.dot(to));
         let closing = unit.dot(normal);
-        // An edge that the ray all but runs along leads no further than its ends.
+        // On an edge that is almost parallel to the ray, the hit stays between the edge's ends.
         let (near, far) = (ends.0.min(ends.1), ends.0.max(ends.1));
         let along = (normal.dot(from) / closing).max(near).min(far);
         let error = (self.rounding / closing.abs()).min(far - near + self.rounding) + self.rounding;

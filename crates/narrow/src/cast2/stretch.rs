@@ -1,9 +1,7 @@
-//! How two bodies move, as the casts see it: one stretch, or two where a body turns, in each of which everything is
-//! smooth.
+//! How two bodies move, as the casts see it: one stretch, or two if a body turns; within each, everything is smooth.
 //!
-//! Within a stretch, times run from 0 to 1. Positions move at constant speed; cosine and sine move along a chord
-//! q(s) and are made of unit length, so that with L the least length of q, and q x q' the area that it spans, a
-//! constant,
+//! Within a stretch, times run from 0 to 1. Positions move at constant speed; cosine and sine move along a chord q(s)
+//! and are normalised. With L the least length of q, and q x q' the area that it spans, a constant,
 //!
 //! ```text
 //! angular speed         |q x q'| / |q|^2                     <= |q x q'| / L^2
@@ -18,26 +16,26 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Motion2, Pose2, Rotation2, Shape2};
 
-/// By how much a pose's rotation may lie beside the smooth way, in radians or as a stretch: it is rounded to f32
-/// twice, and where the way begins and ends of unit length up to one rounding.
+/// How far a pose's rotation may be off the smooth path, in radians or as a stretch: it is rounded to f32 twice, and
+/// where the path begins and ends it is of unit length only up to one rounding.
 const ROTATION_ROUNDING: f64 = f32::EPSILON as f64;
 
-/// What both bodies do.
+/// The motion of both bodies.
 pub(super) struct Travel {
     stretches: ArrayVec<Stretch, 2>,
 }
 
 /// A share of the motion.
 pub(super) struct Stretch {
-    /// Where it begins, and how long it is, as shares of the motion.
+    /// Where it begins, and how much of the motion it is, as shares of the motion.
     pub(super) start: f64,
     pub(super) share: f64,
-    /// B's position less A's where it begins.
+    /// B's position less A's, where the stretch begins.
     pub(super) offset: DVec2,
-    /// What A moves by relative to B.
+    /// How far A moves relative to B, over the stretch.
     pub(super) velocity: DVec2,
     pub(super) spins: [Spin; 2],
-    /// Sums of coordinates: of the positions that move, and of what they move by.
+    /// Sums of coordinates by magnitude: of the positions of bodies that move, and of how far they move.
     positions: f64,
     paths: f64,
 }
@@ -52,12 +50,12 @@ pub(super) struct Spin {
     /// Bounds on the angular speed and on the second derivative of the unit vector.
     pub(super) speed: f64,
     pub(super) swerve: f64,
-    /// Share of its arm that a point of the body may lie beside its smooth way.
+    /// How far a point of the body may be off its smooth path, as a share of its arm.
     pub(super) rounding: f64,
 }
 
 impl Travel {
-    /// A moves by a displacement, B stands.
+    /// A moves by a displacement; B stands still.
     pub(super) fn shift([a, b]: [&Pose2; 2], displacement: DVec2) -> Self {
         let mut stretches = ArrayVec::new();
         let is_still = displacement == DVec2::ZERO;
@@ -73,7 +71,7 @@ impl Travel {
         Self { stretches }
     }
 
-    /// Both move, and perhaps turn.
+    /// Both bodies move, and perhaps turn.
     pub(super) fn of(pair: &Pair2, motions: [&Motion2; 2]) -> Self {
         let (poses, shapes) = ([&pair.pose_a, &pair.pose_b], [pair.shape_a, pair.shape_b]);
         let [a, b] = [0, 1].map(|which| {
@@ -107,7 +105,7 @@ impl Travel {
         &self.stretches
     }
 
-    /// Whether neither body moves relative to the other, and none turns.
+    /// Whether neither body moves relative to the other, and neither turns.
     pub(super) fn is_still(&self) -> bool {
         self.stretches.iter().all(|stretch| stretch.paths == 0.0 && !stretch.is_turning())
     }
@@ -146,7 +144,7 @@ impl Way {
 }
 
 impl Stretch {
-    /// B's position less A's.
+    /// B's position less A's at a time.
     #[inline]
     pub(super) fn offset_at(&self, at: f64) -> DVec2 {
         self.offset - self.velocity * at
@@ -156,8 +154,8 @@ impl Stretch {
         self.spins.iter().any(|spin| spin.rounding > 0.0)
     }
 
-    /// More than the difference of the positions may be off by up to a time, in the poses that are given for it and
-    /// here.
+    /// An upper bound on the rounding error of the difference of positions up to a time, both in the poses that are
+    /// reported and here.
     pub(super) fn lost(&self, end: f64) -> f64 {
         4.0 * f64::EPSILON * (self.positions + sum(self.offset) + self.paths * end)
     }
@@ -181,7 +179,7 @@ impl Spin {
         Self { from, change, speed, swerve, rounding: ROTATION_ROUNDING }
     }
 
-    /// How far an arm of unit length goes at most, by poses whose rotations are rounded to f32.
+    /// The furthest that the end of an arm of unit length moves, in poses whose rotations are rounded to f32.
     pub(super) fn chord(&self) -> f64 {
         self.change.length() + 4.0 * self.rounding
     }
@@ -202,8 +200,8 @@ impl Spin {
     }
 }
 
-/// Whether nothing of a shape changes place as its body turns: a ball about its body's position. It counts as one that
-/// does not turn, so that it meets the same: of who turns, all of its arm would count as way that it makes.
+/// Whether a shape stays where it is as its body turns: a ball about the body's position. It is treated as one that
+/// does not turn, so that it meets the same; else all of its arm would count as a path along which it moves.
 fn is_round(shape: &Shape2) -> bool {
     shape.center() == Vec2::ZERO && shape.outer_radius() <= shape.radius()
 }

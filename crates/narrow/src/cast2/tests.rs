@@ -63,7 +63,7 @@ fn half_planes_meet_what_they_are_told_to() {
     assert!((impact.fraction - 0.5).abs() < 1e-9 && impact.normal == Vec2::NEG_Y, "{impact:?}");
     assert!((impact.anchor_b - Vec2::new(6.5, 0.0)).length() < 1e-5 && impact.anchor_a == Vec2::NEG_Y * 0.5);
     assert_eq!(cast((&circle(0.5), at(3.0, 10.5)), (&floor(), at(0.0, 0.0)), Vec2::new(1e9, 1e-3)), None);
-    // Two that look away from each other, and two that overlap without end.
+    // Two that face away from each other, and two that overlap without end.
     let ceiling: Shape2 = HalfPlane::new(Vec2::NEG_Y).unwrap().into();
     let down = cast((&ceiling, at(5.0, 2.0)), (&floor(), at(0.0, 0.0)), Vec2::new(9.0, -4.0)).unwrap();
     assert!((down.fraction - 0.5).abs() < 1e-9 && down.normal == Vec2::NEG_Y, "{down:?}");
@@ -178,14 +178,14 @@ fn what_turns_while_it_passes_one_sided_ground_from_behind_is_not_stopped_half_w
     for angle in [0.0, 1e-6, 0.5, -3.0] {
         let turn = Rotation2::from_angle(angle).unwrap();
         for i in 0..=60 {
-            // From below, so that its middle is on either side of the platform when half of the way is done.
+            // From below, such that its middle is on either side of the platform half way through.
             let way = 1.6 + 0.025 * f64::from(i);
             let (pose, motion) = (at(0.2, -1.0), Motion2::new([0.0, way], turn).unwrap());
             let pair = Pair2::new(&ball, &pose, &platform, &Pose2::IDENTITY);
             assert_eq!(pair.impact(&motion, &still), None, "{angle} {way}");
             let back = Pair2::new(&platform, &Pose2::IDENTITY, &ball, &pose);
             assert_eq!(back.next_impact(&still, &motion), None, "{angle} {way}");
-            // From above it is met wherever it comes to it, also half way.
+            // From above it is met wherever the body reaches it, also half way.
             let (pose, motion) = (at(0.2, 1.0), Motion2::new([0.0, -0.625 * way], turn).unwrap());
             let met = Pair2::new(&ball, &pose, &platform, &Pose2::IDENTITY).impact(&motion, &still).unwrap();
             assert!((met.fraction * 0.625 * way - 0.5).abs() < 1e-5, "{angle} {way} {met:?}");
@@ -198,8 +198,8 @@ fn hill() -> Chain {
     Chain::open([(2.0, -0.5), (0.0, 0.0), (-2.0, -0.5)].map(Vec2::from)).unwrap()
 }
 
-/// Where ways begin and lead to points around the top of the hill, from below: out of the right slope, and away from what the
-/// left one looks to.
+/// Start poses and displacements that lead, from below, to points around the top of the hill: out through the right
+/// slope, and away from the front of the left one.
 fn ways_out_of_the_hill() -> impl Iterator<Item = (Pose2, DVec2)> {
     (0..400).map(|i| {
         let to = Rotation2::from_angle(0.01 * (i % 100) as f32).unwrap();
@@ -232,7 +232,7 @@ fn a_box_that_hardly_turns_comes_out_of_one_sided_ground_as_one_that_does_not_tu
     assert!(passed > 100, "{passed}");
 }
 
-/// What moves away may come near by its turn: the end of a bar that rises a little meets the floor below.
+/// A body that moves away may come near as it turns: the end of a bar that rises a little meets the floor below.
 #[test]
 fn the_end_of_a_bar_that_turns_and_rises_meets_one_sided_ground() {
     let floor = Shape2::from(Chain::open([Vec2::X * 9.0, Vec2::X * -9.0]).unwrap().one_sided());
@@ -248,13 +248,13 @@ fn the_end_of_a_bar_that_turns_and_rises_meets_one_sided_ground() {
     }
 }
 
-/// A floor that looks up, left of zero, and a slope that leads up from its end.
+/// A floor that faces up, left of zero, and a slope that leads up from its end.
 fn valley() -> Shape2 {
     Chain::open([(8.0, 8.0), (0.0, 0.0), (-8.0, 0.0)].map(Vec2::from)).unwrap().one_sided().into()
 }
 
-/// What a ball of radius 0.5 meets in the valley that starts on an arm from a middle, turns about that and goes a way;
-/// and where its own middle is then.
+/// What a ball of radius 0.5 meets in the valley: it starts on an arm from `middle`, turns about that point and moves
+/// along `way`. Also where its own middle is then.
 fn swung(arm: [f64; 2], middle: [f64; 2], angle: f32, way: [f64; 2]) -> Option<(Impact2, DVec2)> {
     let ball = Shape2::from(Compound2::new([(Pose2::at(arm).unwrap(), circle(0.5))]).unwrap());
     let turn = Motion2::new(way, Rotation2::from_angle(angle).unwrap()).unwrap();
@@ -265,7 +265,7 @@ fn swung(arm: [f64; 2], middle: [f64; 2], angle: f32, way: [f64; 2]) -> Option<(
     met.map(|met| (met, turn.pose_at(&from, met.fraction).transform(DVec2::from(arm))))
 }
 
-/// From behind the slope, and in front of the floor's line, beyond its end: what moves up from there comes out of the
+/// From behind the slope, and in front of the floor's line beyond its end: what moves up from there comes out of the
 /// slope.
 #[test]
 fn what_swings_up_past_an_edge_and_down_through_the_front_is_stopped() {
@@ -277,7 +277,7 @@ fn what_swings_up_past_an_edge_and_down_through_the_front_is_stopped() {
         assert!(met.normal.x < -0.5 && met.normal.y < 0.0, "by the edge: {angle} {met:?}");
         assert!((at.length() - 0.5).abs() < 1e-4, "{angle} {at}");
     }
-    // Up, and down again through the floor's line beyond its end: there is no front that it goes through.
+    // Up, and down again through the floor's line beyond its end: that part has no front.
     assert_eq!(swung([-0.1128, -0.041], [0.615, 0.05], -3.1, [0.0, -0.2]), None);
 }
 
@@ -327,7 +327,7 @@ fn a_ball_that_turns_about_its_middle_meets_what_one_that_does_not_turn_meets() 
 
 #[test]
 fn what_is_passed_over_in_the_first_half_of_a_turn_is_in_the_second_too() {
-    // A floor that is flat by a tenth of a millimetre.
+    // A floor that is flat to a tenth of a millimetre.
     let height = |i: i32| [0.0, 1e-4, 3e-5, 8e-5][i.rem_euclid(4) as usize];
     let floor = Chain::open((-10..=10).rev().map(|i| Vec2::new(0.4 * i as f32, height(i)))).unwrap();
     let compound = |i: i32| {
@@ -339,7 +339,7 @@ fn what_is_passed_over_in_the_first_half_of_a_turn_is_in_the_second_too() {
     for ground in [Shape2::from(floor), tiles.into()] {
         for i in 0..200 {
             let from = at(-1.0 + 0.01 * f64::from(i), 0.4999);
-            // Down into it, so that its middle is about as deep as the floor when half of the way is done.
+            // Down into it, such that its middle is about as deep as the floor half way through.
             for deep in [-0.95, -1.0, -1.02, -1.1] {
                 let way = [-0.8 + 0.008 * f64::from(i), deep];
                 let pair = Pair2::new(&ball, &from, &ground, &Pose2::IDENTITY);
@@ -384,7 +384,7 @@ fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rol
     assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
 }
 
-/// A row of so many squares, each tilted in a way of its own.
+/// A row of `count` squares, each tilted in a way of its own.
 fn row(numbers: &mut Numbers, count: u32) -> Shape2 {
     let parts = (0..count).map(|i| {
         let tilted = Rotation2::new(1.0, numbers.number() as f32 * 0.01).unwrap();
@@ -393,7 +393,8 @@ fn row(numbers: &mut Numbers, count: u32) -> Shape2 {
     Compound2::new(parts.collect::<Vec<_>>()).unwrap().into()
 }
 
-/// Two rows that lie on each other, pressed together: each pair of parts that meets was compared with each contact.
+/// Two rows that lie on each other, pressed together: once, each pair of parts that meets was compared with each
+/// contact.
 #[test]
 fn what_is_met_next_takes_as_much_longer_as_there_are_more_contacts() {
     let mut numbers = Numbers::new(5740);

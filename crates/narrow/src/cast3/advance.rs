@@ -3,15 +3,15 @@
 //! ```text
 //! s = 0
 //! repeat
-//!   the gap at s: two bounds on it and the unit axis n that shows the lower one          (polyhedron::closest)
+//!   the gap at s: two bounds on it, and the unit axis n that shows the lower one         (polyhedron::closest)
 //!   h = how far the motion may go before anything can reach across the gap along n       (step)
-//!   beyond the end:              n parts them for good: no impact
+//!   h leads beyond the end:      n separates them for good: no impact
 //!   the gap is within tolerance: an impact at s
 //!   s = s + h
 //! ```
-//! Along a fixed axis n the gap of two shapes that only move shrinks at the rate n.d: the step is their quotient,
-//! and the next axis belongs to where that leads. This is Newton's iteration on the gap, ends after as many steps
-//! as features are met with polytopes, and never steps too far (van den Bergen, "Ray casting against general convex
+//! Along a fixed axis n the gap of two shapes that only translate shrinks at the rate n.d: the step is their quotient,
+//! and the next axis belongs to where that leads. This is Newton's iteration on the gap: for polytopes it ends after as
+//! many steps as features are met, and it never steps too far (van den Bergen, "Ray casting against general convex
 //! objects with application to continuous collision detection", 2004).
 //!
 //! With rotation the usual step is the gap over the fastest that any point may move (Mirtich 1996, "conservative
@@ -19,18 +19,19 @@
 //!
 //! ```text
 //! a vertex x of A moves along n by  h n.v + h^2/2 K at most,  v = its velocity at s,  K = a bound on all accelerations
-//! n.(x + h w x r) = (n + h n x w).r + ..., so that one support search along a turned axis gives the furthest vertex of all,
+//! n.(x + h w x r) = (n + h n x w).r + ..., so one support search along a turned axis gives the furthest vertex of all,
 //!                                          each moved along its own tangent: the gap L(h), up to K h^2/2
 //! L is concave in h (a least of straight lines): between two h it lies above its chord
-//! h = the root of chord - K h^2/2; a shorter chord has a better root, a few times
+//! h = the root of chord - K h^2/2; a shorter chord has a better root: repeated a few times
 //! ```
 //! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
-//! A half-space that turns has an axis that turns with it: the same, with the vertices of the other seen from the
-//! plane. So has any body beside whose face another passes: along a fixed axis, what turns on comes into the way of
-//! what is seen no further than its far corner lets. Where steps are many, an axis that turns along with either body is
-//! tried as well. Cost: a distance and a few support searches a step; where the two all but touch at the start, and the
-//! axis between their nearest points does not show that they part, a support search for each face and some of the edges.
+//! A half-space that turns has an axis that turns with it: the same, with the vertices of the other as seen from the
+//! plane. Axes that turn are useful for other bodies as well. Where a body passes beside a face of one that turns, a
+//! fixed axis shows no more of the gap than the far corner of that face leaves. So where steps are many, an axis that
+//! turns along with either body is tried as well. Cost: a distance and a few support searches a step. Where the two all
+//! but touch at the start, and the axis between their nearest points does not show that they move apart, a support
+//! search for each face and some of the edges.
 
 use super::passage::{Course, Moment, length};
 use crate::pair3::Part;
@@ -38,7 +39,7 @@ use crate::polyhedron::closest::{Closest, Placed, closest};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
-/// Steps after which the fraction that was reached is told with the gap that is left there.
+/// Steps after which the fraction that was reached is reported, with the gap that is left there.
 const MAX_STEPS: usize = 256;
 
 /// Steps after which axes that turn along with a body are tried as well.
@@ -47,18 +48,18 @@ const PATIENT: usize = 16;
 /// Chords after which a step is good enough.
 const MAX_CHORDS: usize = 6;
 
-/// Sine of the angle by which an axis between points may be beside one that is square to an edge: far more than
-/// rounding makes of it.
+/// Sine of the greatest angle at which an axis between points counts as square to an edge: far more than rounding makes
+/// of it.
 const TILTED: f64 = 1e-3;
 
 /// How the motion of two parts ends.
 pub(super) enum End {
     /// They do not touch before the limit.
     Apart,
-    /// They touch, or are all but there.
+    /// They touch, or come near enough to count as touching.
     Met(Met),
-    /// Whether they touch at the start is below rounding, or they overlap there; and whether, if they do not, they come
-    /// no nearer than they are.
+    /// They overlap at the start, or rounding leaves open whether they do; and whether, if they do not, they come no
+    /// nearer than they are.
     Unclear(Met, bool),
 }
 
@@ -66,7 +67,7 @@ pub(super) enum End {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Met {
     pub(super) fraction: f64,
-    /// At most so far apart, in metres.
+    /// An upper bound on the gap, in metres.
     pub(super) gap: f64,
     /// Unit axis from A to B.
     pub(super) normal: DVec3,
@@ -74,16 +75,16 @@ pub(super) struct Met {
     pub(super) anchors: [DVec3; 2],
 }
 
-/// How far along an axis it goes.
+/// How far the motion may go, judged along one axis.
 #[derive(Clone, Copy)]
 enum Step {
     /// To the limit and beyond.
     Free,
-    /// By so much; what the axis then shows is at least that.
+    /// By this fraction; and a lower bound on the gap that the axis shows after it.
     By(f64, f64),
 }
 
-/// With whom an axis turns.
+/// The body that an axis turns along with, if any.
 type Carrier = Option<usize>;
 
 /// Moves two parts until they touch, or until the limit, a fraction.
@@ -100,7 +101,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         let doubt = moment.precision.projection();
         found.at_least -= course.radii + doubt;
         let gap = found.at_most - course.radii + doubt + course.rounding(fraction, moment.between);
-        // The axis that led here still shows what it was left with; a new one may be rounding.
+        // The axis that led here still shows the gap that it was left with; a new one may show less, by rounding.
         if found.at_least < kept {
             (found.at_least, found.normal) = (kept, towards);
         }
@@ -110,7 +111,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
                 return End::Met(here);
             }
             let (least, normal) = (-4.0 * doubt, found.normal);
-            // An overlap by more than an axis may be off needs no look at features; where there is no bound, it does.
+            // An overlap beyond what an axis may be off by needs no test of features; without a bound, it does.
             let is_slight =
                 found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
             let is_parting = found.at_least > least && course.parts_along(normal, until)
@@ -122,7 +123,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         else {
             return End::Apart;
         };
-        // Never beyond, whatever the sum's rounding.
+        // Never too far, whatever the sum's rounding.
         let next = (fraction + step).next_down();
         if gap <= course.fineness.gap(doubt) || next <= fraction {
             return End::Met(here);
@@ -146,7 +147,7 @@ impl Course<'_> {
         Met { fraction, gap: gap.max(0.0), normal: found.normal, anchors }
     }
 
-    /// Whether the gap along an axis gets no less before the limit, however fast what turns does so.
+    /// Whether the gap along an axis never shrinks before the limit, however fast bodies turn.
     fn parts_along(&self, axis: DVec3, until: f64) -> bool {
         let mut pace = self.closing(axis);
         for ((turn, part), arm) in self.passage.turns.iter().zip(&self.parts).zip(&self.arms) {
@@ -159,9 +160,9 @@ impl Course<'_> {
         pace <= 0.0
     }
 
-    /// Whether the normal of a face, or an axis made square to an edge, shows at least such a gap, which gets no less
-    /// before the limit. An axis between the points that are nearest is off by the rounding of the longer lengths over
-    /// the shorter, and may show less than nothing of a small body's gap from a floor some thousand times as large.
+    /// Whether the normal of a face, or an axis made square to an edge, shows a gap of at least `least` that never
+    /// shrinks before the limit. An axis between nearest points is off by the rounding of the longer lengths over the
+    /// shorter: it may show none of a small body's gap from a floor some thousand times as large.
     fn features_part(&self, moment: &Moment, normal: DVec3, least: f64, until: f64) -> bool {
         let least = least + self.radii + moment.precision.projection();
         let parts = |axis: DVec3| self.parts_along(axis, until) && moment.gap_along(axis) > least;
@@ -179,19 +180,19 @@ impl Course<'_> {
         of(&moment.a, 1.0) || of(&moment.b, -1.0)
     }
 
-    /// Whether all that a body may sweep out by turning about its axis stays clear along the axis of a meeting, from
-    /// then on until the limit: where steps lead no further, what tells that a wheel of many sides rolls on beside
-    /// another for good. What is swept out does not turn: along one axis the gap is least at one end or the other.
+    /// Whether all that a body may sweep by turning about its axis stays clear along the axis of a meeting, from then
+    /// on until the limit: shows, where steps get no further, that a wheel of many sides rolls past another for good.
+    /// What is swept does not turn: along one axis its gap is least at one of the two ends.
     fn rounds_pass(&self, met: &Met, until: f64) -> bool {
         let turns = &self.passage.turns;
         let is_plane = |i: usize| matches!(self.parts[i].shape, Shape3::HalfSpace(_));
-        // Where nothing turns, it tells no more; a plane that turns sweeps over all of space.
+        // Where nothing turns, this shows nothing new; a plane that turns sweeps over all of space.
         if self.passage.is_straight() || (0..2).any(|i| turns[i].is_some() && is_plane(i)) {
             return false;
         }
         let moment = self.at(met.fraction);
         let placed = [&moment.a, &moment.b];
-        // From its body's own position.
+        // How far a part reaches from its body's position.
         let reach = |i: usize, along: DVec3| match (placed[i], turns[i]) {
             (Placed::HalfSpace(_), _) => 0.0,
             (Placed::Core(solid), None) if i == 0 => solid.support(along).reach,
@@ -211,14 +212,14 @@ impl Course<'_> {
             .all(|fraction| met.normal.dot(self.passage.between_at(fraction)) - reaches > doubt)
     }
 
-    /// An upper bound on the speed at which the gap along an axis closes, turning left out.
+    /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
     fn closing(&self, axis: DVec3) -> f64 {
         // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
         axis.dot(self.passage.drift) + 16.0 * f64::EPSILON * length(self.passage.drift)
     }
 
-    /// The longest step by the axis that was found, whichever of these it turns along with; nothing where one parts
-    /// them for good.
+    /// The longest step by the axis that was found, turning along with whichever of the `carriers`; `None` if one of
+    /// these shows that the two stay apart.
     fn longest_step(
         &self,
         moment: &Moment,
@@ -236,19 +237,20 @@ impl Course<'_> {
         Some(longest)
     }
 
-    /// Whether an axis may turn along with a body: with one that turns, and not where a plane has an axis of its own.
+    /// Whether an axis may turn along with a body: only if that turns, and neither is a half-space, which has an axis
+    /// of its own.
     fn may_carry(&self, carrier: Carrier) -> bool {
         let is_plane = |part: &Part| matches!(part.shape, Shape3::HalfSpace(_));
         carrier.is_none_or(|i| self.passage.turns[i].is_some() && !self.parts.iter().any(is_plane))
     }
 
-    /// Where an axis is after a while that turns along with a body.
+    /// Where an axis that turns along with a body is, a while later.
     fn carried(&self, axis: DVec3, carrier: Carrier, [from, to]: [f64; 2]) -> DVec3 {
         let Some(turn) = carrier.and_then(|i| self.passage.turns[i]) else { return axis };
         turn.basis_at(to).turn(turn.basis_at(from).turn_back(axis)).normalize_or(axis)
     }
 
-    /// How far the motion may go before the shapes can touch, by the axis that was found and what it turns along with.
+    /// How far the motion may go before the shapes can touch, by an axis and the body it turns along with.
     fn step(
         &self,
         moment: &Moment,
@@ -267,7 +269,7 @@ impl Course<'_> {
             return Step::By(step, found.at_least * (1.0 - 4.0 * f64::EPSILON) - closing * step);
         }
         if let (Placed::HalfSpace(_), Placed::HalfSpace(_)) = (&moment.a, &moment.b) {
-            // No longer parallel, they meet far out at once.
+            // No longer parallel, half-spaces meet far out at once.
             return Step::By(0.0, found.at_least);
         }
         let axis = (found.normal, carrier);
@@ -297,14 +299,14 @@ impl Course<'_> {
         Step::By(step * (1.0 - 16.0 * f64::EPSILON), 0.5 * rest)
     }
 
-    /// The separation along an axis after a step, every vertex moved along its own tangent: a lower bound, but for
-    /// what its path bends.
+    /// The separation along an axis after a step in which every vertex moves along its own tangent: a lower bound, but
+    /// for the curvature of the paths.
     fn shown(&self, moment: &Moment, (axis, carrier): (DVec3, Carrier), closing: f64, step: f64) -> f64 {
         let [spin_a, spin_b] = moment.spins.map(|spin| spin * step);
         let [a, b] = [&moment.a, &moment.b];
         let takes_along =
             |i: usize, placed: &Placed| carrier == Some(i) || matches!(placed, Placed::HalfSpace(_));
-        // A plane takes its axis along.
+        // A half-space takes its axis along.
         let mut along = axis;
         if takes_along(0, a) {
             along += spin_a.cross(axis);
@@ -312,7 +314,7 @@ impl Course<'_> {
         if takes_along(1, b) {
             along += spin_b.cross(axis);
         }
-        // Along an axis that it takes along, a body reaches as far as ever.
+        // Along an axis that turns with it, a body always reaches equally far.
         let seen = |i: usize, spin: DVec3| if carrier == Some(i) { axis } else { along + axis.cross(spin) };
         let reach_a = match a {
             Placed::Core(solid) => solid.support(seen(0, spin_a)).reach,
@@ -331,7 +333,7 @@ impl Course<'_> {
         along.dot(moment.between) - closing * step - reach_a - reach_b - self.radii - doubt
     }
 
-    /// A bound on how fast any vertex may be accelerated along an axis, from here until `span` later.
+    /// A bound on any vertex' acceleration along an axis, from here until `span` later.
     fn bend(&self, moment: &Moment, carrier: Carrier, [fraction, span]: [f64; 2]) -> f64 {
         let bounds = self.passage.turns.map(|turn| match turn {
             Some(turn) => turn.bounds_within(fraction, fraction + span),
@@ -343,7 +345,8 @@ impl Course<'_> {
         let of = |i: usize| {
             let (own, other) = (change(i) + speed(i) * speed(i), 1 - i);
             if carrier == Some(i) || matches!(self.parts[i].shape, Shape3::HalfSpace(_)) {
-                // Seen from a plane that turns, all that moves is bent.
+                // Seen from a half-space that turns, or from the body that carries the axis, all that moves is on a
+                // curve.
                 let arm = self.arms[other];
                 return own * (apart + arm.from_position)
                     + 2.0 * speed(i) * (drift + speed(other) * arm.from_axis);

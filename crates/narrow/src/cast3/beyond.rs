@@ -1,4 +1,4 @@
-//! What a body meets next that touches some of the other already, in space: see [`level`](crate::level).
+//! What a body that already touches some of another meets next, in space: see [`level`](crate::level).
 
 use super::at_start;
 use super::passage::{Course, Moment, Passage};
@@ -13,21 +13,20 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Motion3, Shape3};
 
-/// Moments of a motion with a turn that are looked at: 6 degrees of a half turn apart, by which an arm comes 0.14 %
-/// further.
+/// Sampled moments in a motion with a turn: 6 degrees apart in a half turn, within which an arm reaches 0.14 % further.
 pub(super) const MOMENTS: u32 = 32;
 
 /// What is touched at the start.
 pub(super) struct Touched<'t> {
-    /// How the two touch each other, where they do.
+    /// The contacts between the two bodies, if they touch.
     contacts: Option<Contacts<'t, Manifold3>>,
-    /// What A touches, which may be B.
+    /// All that A touches, B perhaps among it.
     beside: Contacts<'t, Touch3>,
-    /// Which of the two are ground, and so have no thickness that counts.
+    /// Which of the two are ground, whose thickness does not count.
     are_ground: [bool; 2],
 }
 
-/// Asks with what is touched at the start: each other, where they do, and what A touches.
+/// Calls `ask` with what is touched at the start: the contacts between the two, if they touch, and all that A touches.
 pub(super) fn with_touched<R>(
     pair: &Pair3,
     (do_touch, touches): (bool, &[Touch3]),
@@ -45,14 +44,14 @@ pub(super) fn with_touched<R>(
 }
 
 impl Touched<'_> {
-    /// How it lies what two parts meet with at a fraction, along a unit axis from A to B; at the start, what they touch
-    /// with.
+    /// Classifies the meeting of two parts at a fraction, along a unit axis from A to B; at fraction 0, their touch at
+    /// the start.
     pub(super) fn lies(&self, passage: &Passage, parts: [Part; 2], (fraction, normal): (f64, DVec3)) -> Lies {
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
         let course = Course::new(passage, parts, [&core_a, &core_b]);
         let (start, end) = (course.at(0.0), course.at(1.0));
         let gap = |moment: &Moment, axis: DVec3| moment.gap_along(axis) - course.radii;
-        // Who turns may be in deepest on the way.
+        // A body that turns may be deepest on the way.
         let between = if passage.is_straight() { 0 } else { MOMENTS };
         let on_the_way = (1..between).map(|i| course.at(f64::from(i) / f64::from(MOMENTS)));
         let on_the_way: ArrayVec<Moment, { MOMENTS as usize }> = on_the_way.collect();
@@ -76,7 +75,7 @@ impl Touched<'_> {
         passing.lies(normal, self.contacts.as_ref(), &self.beside)
     }
 
-    /// That of the thinner of two parts, from the middle, in metres; ground has none that counts.
+    /// The thickness of the thinner of two parts, from its middle, in metres; ground's does not count.
     fn thickness(&self, parts: &[Part; 2]) -> f64 {
         thinner([0, 1].map(|i| {
             let shape = parts[i].shape;
@@ -94,8 +93,8 @@ impl Touched<'_> {
 }
 
 impl Pair3<'_> {
-    /// What ground is touched, not told, and gone into: seen from where half a thickness of the way is done, unless
-    /// something else is met before.
+    /// An impact at the start with ground that is touched without a contact, and moved into: found from the manifolds
+    /// after half a thickness of the way, unless something else is met before.
     pub(super) fn across(
         &self,
         (on, passage): (&OnGround, &Passage),

@@ -1,10 +1,10 @@
 //! Two cuboids that move without turning: all fifteen axes at once.
 //!
 //! ```text
-//! for each axis: the projections overlap while |c - v s| <= r, c and v the centres' offset and the motion along the axis, r
-//!   both half widths: from (|c| - r)/|v| to (|c| + r)/|v|
-//! the boxes touch while all of them do: from the latest entry to the earliest exit
-//! the latest entry's axis is the normal; its features' closest points say how near they are
+//! for each axis: the projections overlap while |c - v s| <= r, where c and v are the centres' offset and the motion
+//!   along the axis, and r the sum of both half widths: from (|c| - r)/|v| to (|c| + r)/|v|
+//! the boxes touch while all axes overlap: from the latest entry to the earliest exit
+//! the latest entry's axis is the normal; the closest points of its features say how near they are
 //! ```
 //! The separating axis theorem for bodies that move: Eberly, "Dynamic collision detection using oriented bounding
 //! boxes" (1999). No search and no distance: the answer is as good as a projection, some 1e-14 of the size, and a
@@ -13,12 +13,12 @@
 //! What makes it fast:
 //!
 //! 1. fifteen slabs in lanes: a quotient, two differences and two products each, no branch;
-//! 2. edges' axes are not made of unit length: along an axis of length below 1 a projection is off by no more than
-//!    along one of length 1, so that axes of edges that are all but parallel drop out by that doubt alone;
-//! 3. rounding is half a width more on every axis: whatever the slabs say holds beyond it, both ways;
+//! 2. edge axes are not normalised: along an axis shorter than 1 a projection is off by no more than along one of
+//!    length 1, so axes of almost parallel edges drop out by that error alone;
+//! 3. rounding is added to the half widths on every axis: so what the slabs say holds, hit or miss;
 //! 4. seen from where the bounding spheres meet: what is far away has cancelled before anything is turned;
-//! 5. closest points: a corner of one clamped to the other, or two edges; each other's nearest in turns where faces
-//!    or edges lie on each other.
+//! 5. closest points: a corner of one clamped to the other, or two edges; where faces or edges lie on each other, each
+//!    other's nearest points in turn.
 
 use super::advance::{End, Met};
 use super::passage::{Passage, Stretch, length};
@@ -28,13 +28,14 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::IMPACT_REST;
 use asunder_geometry::{Basis3, Cuboid};
 
-/// Fifteen axes, and one that bounds nothing: faces of A, of B, then A's edges with B's, the first of A's first.
+/// Fifteen axes, and one that bounds nothing: faces of A, faces of B, then A's edges with B's, by A's edge first.
 const LANES: usize = 16;
 
-/// Times that a point is taken to the nearest of the other box before others look for closest points.
+/// How often a point is moved to the nearest of the other box before `sweep` gives up.
 const MAX_TURNS: usize = 6;
 
-/// Cosine of an angle within which faces and edges lie on each other: their middles are tried first.
+/// Cosine of an angle up to which a direction counts as square to an axis: then faces or edges lie on each other, and
+/// their middles are tried first.
 const LEVEL: f64 = 1e-10;
 
 /// Two boxes in A's axes, about A's centre.
@@ -45,7 +46,7 @@ struct Boxes {
     axes: [[f64; 3]; 3],
 }
 
-/// How the motion ends; nothing where that is below rounding, or no points were found so near.
+/// How the motion ends; `None` where rounding leaves that open, or no points were found so near.
 pub(super) fn sweep(
     passage: &Passage,
     parts: &[Part; 2],
@@ -64,7 +65,7 @@ pub(super) fn sweep(
     };
     let size = f64::from(a.outer_radius()) + f64::from(b.outer_radius());
     let (span, pace) = (stretch.to - stretch.from, length(passage.drift));
-    // As at a moment of any course, and the way from there.
+    // The reach as at a moment of any course, and the way from there.
     let way = (length(passage.between) + stretch.from * pace) / 32.0 + span * pace;
     let reach = size + length(shift_a) + length(shift_b) + length(between) + way;
     let doubt = IN_SPACE[1] * (f64::EPSILON / 2.0) * reach;
@@ -100,7 +101,7 @@ struct Slabs {
 }
 
 impl Slabs {
-    /// The latest entry, the earliest exit, and the entry's axis: a face's, unless one of edges is later by `slack`.
+    /// The latest entry, the earliest exit, and the entry's axis: a face's, unless an edge axis is later by `slack`.
     fn latest(&self, slack: f64) -> (f64, f64, usize) {
         let (mut enter, mut axis, mut leave) = (f64::NEG_INFINITY, 0, f64::INFINITY);
         for lane in 0..6 {
@@ -123,7 +124,7 @@ impl Slabs {
 }
 
 impl Boxes {
-    /// Both boxes' slabs, each half width larger by `doubt`; `offset` is B's centre.
+    /// Both boxes' slabs, each half width enlarged by `doubt`; `offset` is B's centre.
     fn slabs(&self, offset: DVec3, drift: DVec3, doubt: f64) -> Slabs {
         let (c, v) = (offset.to_array(), drift.to_array());
         let (a, b, axes) = (&self.half_a, &self.half_b, &self.axes);
@@ -171,7 +172,7 @@ impl Boxes {
         if self.axis(axis).dot(drift) < 0.0 { -normal } else { normal }
     }
 
-    /// An axis in A's axes; of edges not of unit length.
+    /// An axis in A's axes; for edges, not of unit length.
     fn axis(&self, axis: usize) -> DVec3 {
         match axis {
             0..3 => DVec3::AXES[axis],
@@ -180,7 +181,7 @@ impl Boxes {
         }
     }
 
-    /// Points of both that are as near as that, in A's axes; B's centre is at `offset`.
+    /// Points of both within `enough` of each other, in A's axes; B's centre is at `offset`.
     fn closest(&self, axis: usize, offset: DVec3, drift: DVec3, enough: f64) -> Option<[DVec3; 2]> {
         let normal = self.axis(axis);
         let normal = if normal.dot(drift) < 0.0 { -normal } else { normal };
@@ -203,7 +204,7 @@ impl Boxes {
         None
     }
 
-    /// Where two edges pass each other, each through the middle of one.
+    /// Where two edges pass each other, each given by a point of it, its middle.
     fn of_edges(&self, [i, j]: [usize; 2], [on_a, on_b]: [DVec3; 2]) -> [DVec3; 2] {
         let (along_a, along_b) = (DVec3::AXES[i % 3], DVec3::from_array(self.axes[j]));
         let (half_a, half_b) = (self.half_a[i % 3], self.half_b[j]);
@@ -215,12 +216,12 @@ impl Boxes {
         [on_a + along_a * place_a, on_b + along_b * place_b]
     }
 
-    /// A's corner along an axis, from its centre: the middle of an edge or a face that is square to it.
+    /// A's corner along an axis, from its centre; for an axis square to an edge or a face, the middle of that.
     fn corner_a(&self, normal: DVec3) -> DVec3 {
         DVec3::from_array(side(normal.to_array(), &self.half_a))
     }
 
-    /// The same of B.
+    /// The same for B.
     fn corner_b(&self, normal: DVec3) -> DVec3 {
         let normal = normal.to_array();
         let places = side([0, 1, 2].map(|j| dot(&normal, &self.axes[j])), &self.half_b);
@@ -248,7 +249,7 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The end of each extent that looks along a direction; its middle where it is square to that.
+/// The end of each extent that faces along a direction; its middle where the extent is square to that.
 fn side(along: [f64; 3], half: &[f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|i| if along[i].abs() <= LEVEL { 0.0 } else { half[i].copysign(along[i]) })
 }

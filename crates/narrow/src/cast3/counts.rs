@@ -14,9 +14,9 @@ use asunder_geometry::glam::{DVec3, Vec3};
 #[derive(Clone, Copy)]
 pub(super) enum Counts<'c> {
     All,
-    /// Those with what is not touched at the start, nor level with that.
+    /// Touches with parts that are neither touched at the start nor level with those that are.
     Beyond(&'c Touched<'c>),
-    /// Those with what is not touched at the start that are said to.
+    /// Touches with parts that are not touched at the start, if the function says so.
     If(&'c dyn Fn(&Impact3) -> bool),
 }
 
@@ -41,10 +41,10 @@ impl Counts<'_> {
 }
 
 impl Pair3<'_> {
-    /// The first touch of a [`cast`](Self::cast) that counts, of the first ones with each part of a compound, or
-    /// triangle of ground: what is met first by one part may be of no use, and hide what another meets a little later.
-    /// Parts that touch at the start are asked about by their contacts. Cost: as the cast, and where its answer does
-    /// not count, another search.
+    /// The first touch of a [`cast`](Self::cast) for which `counts` is true, among the first touches with each part of
+    /// a compound, or triangle of ground: the touch with one part may be of no use, and hide what is met a little later
+    /// with another. Parts that touch at the start are judged by their contacts. Cost: as the cast, and where its
+    /// answer does not count, another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Pose3, Shape3, Sphere, glam::Vec3};

@@ -6,14 +6,14 @@
 //!     one-sided, and the part's centre starts behind:       passed through
 //!     the part starts and ends on one side of its plane:    passed by
 //!     else:                                                 when the two touch, as any two convex shapes
-//!     touched at an inner edge or vertex, by a direction that the part moves along:
-//!       one-sided, and its centre stays in front:           comes out of the ground, and passes
+//!     touched at an inner edge or vertex, along a direction that the part moves away in:
+//!       one-sided, and the part's centre stays in front:    it comes out of the ground, and passes
 //!       else:                                               an impact along the axis that they touch along
-//! the triangle touched first, and the direction that is its there: no inner edge or vertex has one of its own
+//! report the triangle touched first, with the ground's normal there: inner edges and vertices have none of their own
 //! ```
 //! The side is that at the start of the motion: what comes from the front is stopped however fast it is. What is behind
-//! one triangle and in front of the plane of the next comes up through the former, and meets the edge of the latter
-//! from below: there is no front that it moves into.
+//! one triangle and in front of the plane of the next comes up through the former, and meets the latter's edge from
+//! below: there is no front that it moves into.
 
 use super::advance::{End, Met};
 use super::beyond::MOMENTS;
@@ -34,16 +34,16 @@ struct First {
     triangle: u32,
     /// The part's radius, in metres.
     radius: f64,
-    /// What tells the side that the part is on at the start, in the ground's axes.
+    /// Tells which side the part is on at the start, in the ground's axes.
     seen_at: SeenAt,
 }
 
-/// One motion over one ground.
+/// The search for the first touch in one motion over one ground.
 struct Search<'s> {
     pair: &'s Pair3<'s>,
     on: &'s OnGround<'s>,
     passage: &'s Passage,
-    /// The body's way over the ground, in the ground's axes.
+    /// How the body moves over the ground, in the ground's axes.
     way: DVec3,
     first: Option<First>,
     /// Whether they touch at the start.
@@ -76,7 +76,7 @@ impl Search<'_> {
         self.first.as_ref().map_or(1.0, |first| first.met.fraction)
     }
 
-    /// The triangles on the way of a part.
+    /// Tests the triangles on the way of a part.
     fn over(&mut self, part: &Part) {
         let placed = Corners::of(self.on, part);
         let on = self.on;
@@ -109,7 +109,7 @@ impl Search<'_> {
         });
     }
 
-    /// When a part touches a triangle; tells until when others matter.
+    /// Tests when a part touches a triangle; returns until when other triangles matter.
     fn look(&mut self, part: &Part, placed: &Corners, number: u32) -> f64 {
         let on = self.on;
         let until = self.until();
@@ -149,7 +149,7 @@ impl Search<'_> {
         self.until()
     }
 
-    /// Whether a touch is none that counts, such as with one-sided ground that the part comes out of.
+    /// Whether a touch does not count, such as with one-sided ground that the part comes out of.
     fn is_passed(&self, first: &First, parts: [Part; 2]) -> bool {
         let is_one_sided = self.on.ground.is_one_sided();
         if !is_one_sided && self.counts.is_all() {
@@ -163,8 +163,8 @@ impl Search<'_> {
         !self.counts.admits((self.passage, parts), (first.met.fraction, normal), || impact)
     }
 
-    /// Whether a part's centre stays in front of the plane of a triangle that it leaves: what turns may come back, and
-    /// go through.
+    /// Whether a part's centre stays in front of the plane of a triangle that it leaves: a part that turns may come
+    /// back, and go through.
     fn stays_in_front(&self, first: &First, parts: [Part; 2]) -> bool {
         let (on, passage) = (self.on, self.passage);
         if passage.is_straight() {
@@ -185,11 +185,11 @@ impl Search<'_> {
     }
 }
 
-/// A touch in the direction that is the ground's there, and that, in world axes. Where the body moves along it, and
-/// into what it touches, the touch has the axis that they touch along.
+/// The impact, with the ground's direction at the touch for its normal; and that direction, in world axes. If the body
+/// moves away along it, but into what it touches, the impact has the axis that they touch along.
 ///
-/// What turns may lean over an inner edge from the far side, and what is level is still told by the ground's direction:
-/// a box that slides over a hill, pressed into it, meets the far corners from inside.
+/// A body that turns may lean over an inner edge from the far side, and what is level is still decided by the ground's
+/// direction: a box that slides over a hill, pressed into it, meets the far corners from inside.
 fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
     let met = &first.met;
     let [_, of_ground] = on.in_order([0, 1]);
@@ -208,8 +208,8 @@ fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
     (impact_of(&Met { normal, ..*met }, on.in_order([first.part, facing.triangle])), facing)
 }
 
-/// How the point of the body's core that touches moves just then, as seen from the ground: of a ball, its middle,
-/// however it turns about that.
+/// The velocity of the touching point of the body's core at that moment, as seen from the ground: for a ball, of its
+/// centre, however it turns about that.
 fn way_of_body(on: &OnGround, passage: &Passage, first: &First) -> DVec3 {
     let Met { fraction, normal, anchors, .. } = first.met;
     let between = passage.between_at(fraction);

@@ -1,4 +1,5 @@
-//! What of a compound a ball may meet on its way, where either body turns: as the compound sees it, in straight legs.
+//! Which parts of a compound a ball may meet on its way, where either body turns: its path, as the compound sees it, in
+//! straight legs.
 //!
 //! ```text
 //! x(t)    the ball's centre from the compound's position, in world axes: an arm that turns, on a straight way
@@ -6,18 +7,19 @@
 //! y''     = T''x + 2 T'x' + Tx'',  |T'| <= w and |T''| <= w^2 + |w'| of a turn at speed w; the arm likewise
 //! leg     from y(s) to y(e) in a straight line: y is never further from it than  max|y''| (e - s)^2 / 8
 //! ```
-//! The last line is that of linear interpolation. Let n point from the leg to y at the time at which they are furthest
-//! apart. Along n their difference is zero at both ends, and its second derivative is no less than -m, m = max|y''|; so
-//! it is below the parabola m (t - s) (e - t) / 2, which has that second derivative everywhere and is zero at both ends
-//! too. Its top is m (e - s)^2 / 8. So a ball on the leg, larger by that, holds the true one at each time. A part whose
-//! box, or whose bounding sphere, that larger ball does not meet until a time is met by nothing in the true one until
-//! then. No number of the search for the meeting is part of this, so none need be trusted: what is left out is apart
-//! for certain, and what is left is asked in the order of its numbers, each until what is known, as if nothing had been
-//! left out. The ball is larger, too, by as much as counts as having met, so that of parts that pass within that the
-//! same is told.
+//! The last line is the error of linear interpolation. Let n point from the leg to y at the time at which they are
+//! furthest apart. Along n their difference is zero at both ends, and its second derivative is no less than -m, m =
+//! max|y''|; so it is below the parabola m (t - s) (e - t) / 2, which has that second derivative everywhere and is zero
+//! at both ends too. Its top is m (e - s)^2 / 8. So a ball on the leg, larger by that, contains the true one at each
+//! time. Until this larger ball meets a part's box or bounding sphere, nothing in the true one meets the part.
 //!
-//! What a turn of a quarter took and takes, while one of two bodies of balls and boxes flies at the other, in ms (Intel
-//! Xeon, family 6 model 85, 2026-11-28, a busy machine; in the plane squares, see `cast2`):
+//! No number of the search for the meeting enters here, so none need be trusted: parts that are left out are certainly
+//! apart, and the others are tested in the order of their numbers, each up to the first meeting known, as if none had
+//! been left out. The ball is also larger by the gap that counts as met, so that parts which pass within that gap get
+//! the same answer.
+//!
+//! What a quarter turn cost before and costs now, while one of two bodies of balls and boxes flies at the other, in ms
+//! (Intel Xeon, family 6 model 85, 2026-11-28, a busy machine; in the plane squares, see `cast2`):
 //!
 //! | parts of each | 64 | 512 | 4,096 |
 //! |---|---|---|---|
@@ -41,34 +43,34 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::IMPACT_GAP;
 use asunder_geometry::{Compound3, Shape3};
 
-/// Legs of a way at most.
+/// The most legs of a path.
 const MAX_LEGS: usize = 32;
 
-/// Share of what a ball and a part of the compound may measure by which a leg may be beside the way.
+/// How far a leg may lie off the path, as a share of the radii of the ball and of the compound's parts.
 const BESIDE: f64 = 0.5;
 
-/// The way of a ball past a compound, from the start to a fraction of the motion.
+/// The path of a ball past a compound, from the start to a fraction of the motion.
 pub(super) struct Legs {
     legs: ArrayVec<Leg, MAX_LEGS>,
-    /// More than all sums here lose to rounding.
+    /// An upper bound on what all sums here lose to rounding.
     lost: f64,
 }
 
-/// A straight piece of it, in the compound's axes.
+/// A straight piece of the path, in the compound's axes.
 struct Leg {
     /// The fraction at which it begins, and for how long it lasts.
     from: f64,
     span: f64,
     start: DVec3,
     way: DVec3,
-    /// That of a ball that holds the moved one at any time of it.
+    /// Radius of a ball that contains the moving one at all times of the leg.
     radius: f64,
 }
 
 impl Passage {
     /// Visits, in the order of their numbers, the convex parts of a body, A (0) or B (1), that may meet a part of the
-    /// other, or all of it, until a fraction, and perhaps others; each with a fraction before which it certainly does
-    /// not. The visitor says when to stop; returns whether it did.
+    /// other body, or all of it, until a fraction; each with a fraction before which it certainly does not. May visit
+    /// other parts too. The visitor says when to stop; returns whether it did.
     pub(super) fn for_parts_met<'a>(
         &self,
         (shape, i): (&'a Shape3, usize),
@@ -77,7 +79,7 @@ impl Passage {
         mut visit: impl FnMut(Part<'a>, f64) -> bool,
     ) -> bool {
         let basis = &self.bases[i];
-        // What has no end is everywhere.
+        // An endless shape is everywhere.
         let many = many3(shape).filter(|_| other.shape.outer_radius().is_finite());
         let Some(compound) = many else { return for_parts(shape, basis, |part| visit(part, 0.0)) };
         if self.is_straight() {
@@ -93,8 +95,8 @@ impl Passage {
         in_order(|numbers| legs.walk(compound, numbers), visit_met)
     }
 
-    /// Where the parts of a compound are, at the start, that may meet a part of the other body, or all of it, where
-    /// nobody turns, and how that moves.
+    /// Where the parts of a compound are that may meet a part of the other body, or all of it, if neither body turns: a
+    /// region at the start, and how that region moves.
     fn region(&self, i: usize, compound: &Compound3, other: &Part) -> (Region3, DVec3) {
         let (center, way) = match i {
             0 => (self.between + other.center, -self.drift),
@@ -105,7 +107,7 @@ impl Passage {
         (Region3 { center, radius: radius + met + self.rounding }, way)
     }
 
-    /// The way of a ball about a part of the other body, or about all of it, as a compound sees it.
+    /// The path, as a compound sees it, of a ball around a part of the other body, or around all of it.
     fn legs(&self, (compound, i): (&Compound3, usize), other: &Part, until: f64) -> Legs {
         let radius = f64::from(other.shape.outer_radius());
         let size = f64::from(compound.outer_radius());
@@ -132,14 +134,14 @@ impl Passage {
         Legs { legs, lost }
     }
 
-    /// A point of the other body, given in its axes, in the axes of a body at a fraction.
+    /// A point of the other body, given in that body's axes, as seen in the axes of body `i` at a fraction.
     fn seen(&self, i: usize, point: DVec3, fraction: f64) -> DVec3 {
         let basis = |i: usize| self.turns[i].map_or(self.bases[i], |turn| turn.basis_at(fraction));
         let (arm, between) = (basis(1 - i).turn(point), self.between_at(fraction));
         basis(i).turn_back(if i == 0 { between + arm } else { arm - between })
     }
 
-    /// A bound on the acceleration of a point of the other body with such an arm, as a body sees it.
+    /// A bound on the acceleration, as body `i` sees it, of a point of the other body at the end of an arm.
     fn bend(&self, i: usize, arm: f64, [from, to]: [f64; 2]) -> f64 {
         let bounds = |i: usize| self.turns[i].map_or([0.0; 2], |turn| turn.bounds_within(from, to));
         let ([speed, change], [other_speed, other_change]) = (bounds(i), bounds(1 - i));
@@ -153,7 +155,7 @@ impl Passage {
 }
 
 impl Legs {
-    /// Lists the parts whose boxes may be met, each once or more.
+    /// Lists the parts whose boxes may be met, each at least once.
     fn walk(&self, compound: &Compound3, numbers: &mut Vec<u32>) {
         for leg in &self.legs {
             let grown = Region3 { center: leg.start, radius: leg.radius }.grown(leg.way, compound);
@@ -164,15 +166,14 @@ impl Legs {
         }
     }
 
-    /// A fraction before which what is about a point of the compound, in its axes, is not met; nothing where it never
-    /// is.
+    /// A fraction before which a sphere around a point of the compound, in its axes, is not met; `None` if it never is.
     fn first_meeting(&self, center: DVec3, radius: f64) -> Option<f64> {
         self.legs.iter().find_map(|leg| leg.meeting(center, radius + self.lost, self.lost))
     }
 }
 
 impl Leg {
-    /// The same, in this leg; all that is computed on the way is off by less than `lost` metres.
+    /// The same for this leg; all that is computed on the way is off by less than `lost` metres.
     fn meeting(&self, center: DVec3, radius: f64, lost: f64) -> Option<f64> {
         count_step();
         let (apart, reach) = (self.start - center, self.radius + radius);
@@ -191,12 +192,12 @@ impl Leg {
         if first > pace || last < 0.0 {
             return None;
         }
-        // A share's rounding is less than a fraction's.
+        // The rounding of a share is less than that of a fraction.
         Some((self.from + self.span * (first / pace) - 4.0 * f64::EPSILON).max(self.from))
     }
 }
 
-/// About what the parts of a compound measure: the mean of three bounding radii.
+/// A typical size of the parts of a compound: the mean of three bounding radii.
 fn size_of_parts(compound: &Compound3) -> f64 {
     let parts = compound.parts();
     let some = [parts.first(), parts.get(parts.len() / 2), parts.last()];

@@ -4,25 +4,24 @@
 //! s = where the bounding spheres meet, n = from centre to centre, no corners
 //! repeat
 //!   w = the vertices of both that are furthest along n, and the gap that they show along it at s
-//!   the gap does not close before the end: n parts them for good, no impact
+//!   the gap does not close before the end: n separates them for good, no impact
 //!   s = s + gap / how fast it closes: nothing touches before
-//!   v = the nearest point to the origin of the corners and w, moved to s; keep the corners it needs
+//!   v = the point nearest to the origin of the hull of the corners and w, moved to s; keep the corners that carry it
 //!   |v| within tolerance: an impact at s
 //!   n = v/|v|
 //! ```
-//! G. van den Bergen, "Ray casting against general convex objects with application to continuous collision
-//! detection" (2004): the point that moves against A - B. Every step is certified by its own projection, so that
-//! nothing before s, and no miss, hangs on the simplex; that proposes axes, and gives the points that say how near
-//! they are. Where it stalls, or they touch at the start, it tells nothing, and `advance` is asked, which narrows
-//! each distance down before it moves on.
+//! G. van den Bergen, "Ray casting against general convex objects with application to continuous collision detection"
+//! (2004): the point that moves against A - B. Every step is certified by its own projection, so nothing before s, and
+//! no miss, depends on the simplex; that only proposes axes, and gives the points that say how near the two are. Where
+//! it stalls, or they touch at the start, it gives no answer, and `advance` takes over, which refines each distance
+//! before it moves on.
 //!
 //! What makes it fast:
 //!
 //! 1. one search for the whole way: no distance is found but the last;
 //! 2. it starts where the bounding spheres meet: a step saved, and the way there no longer costs digits;
-//! 3. supports in f32 lanes, with their bound, until what they show is near what they may be off by: half of each
-//!    one's cost;
-//! 4. shapes stand, and the origin moves: nothing is placed twice.
+//! 3. supports in f32 lanes, with their error bound, until the gap is near that bound: half the cost of each;
+//! 4. shapes stand still, and the origin moves: nothing is placed twice.
 
 use super::advance::{End, Met};
 use super::passage::{Course, Stretch, length};
@@ -33,41 +32,41 @@ use crate::precision::IN_SPACE;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// Steps after which another is asked.
+/// Steps after which `advance` takes over.
 const MAX_STEPS: usize = 64;
 
-/// A rough support is good enough while the gap is so many times what it may be off by.
+/// A rough support is good enough while the gap is this many times its error.
 const ROUGH: f64 = 8.0;
 
 /// Vertices of A and of B, and the way from one to the other at the start of the stretch.
 type Corner = ([usize; 2], DVec3);
 
-/// Corners of the difference that carry its nearest point to the origin, with their shares.
+/// Corners of the Minkowski difference that carry its point nearest to the origin, with their weights.
 struct Simplex {
     corners: ArrayVec<Corner, 4>,
     weights: [f64; 3],
     nearest: DVec3,
 }
 
-/// Both cores, and what bounds a projection of them.
+/// Both cores, and the error bound of their projections.
 struct March<'a> {
     a: &'a Solid<'a>,
     b: &'a Solid<'a>,
     drift: DVec3,
-    /// By how much a projection may be off anywhere on it, with both radii.
+    /// Subtracted from any projection on the way: its error, and both radii.
     taken: f64,
 }
 
-/// What an axis shows.
+/// What the projection on an axis shows.
 struct Shown {
     corner: Corner,
-    /// The gap at least.
+    /// A lower bound on the gap.
     gap: f64,
-    /// How fast it closes at most.
+    /// An upper bound on how fast it closes.
     closing: f64,
 }
 
-/// Moves two cores along a stretch until they touch; nothing where it cannot tell.
+/// Moves two cores along a stretch until they touch; `None` where it cannot tell.
 pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let moment = course.at(stretch.from);
     let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
@@ -79,7 +78,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let mut axis = (stretch.apart - drift * stretch.from).try_normalize()?;
     let (mut done, mut kept, mut is_rough, mut is_near) = (0.0, None, true, false);
     let mut simplex = Simplex { corners: ArrayVec::new(), weights: [0.0; 3], nearest: DVec3::ZERO };
-    // Whether it is certain that they do not touch at the start.
+    // Whether they certainly do not touch at the start.
     let mut is_parted = stretch.from > 0.0;
     let mut distance = f64::INFINITY;
     for _ in 0..MAX_STEPS {
@@ -103,7 +102,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
             continue;
         }
         let before = distance;
-        // Where the origin has moved, nothing need be nearer than it was.
+        // Once the origin has moved, the nearest point may be further than before.
         let nearer_than = if step > 0.0 { f64::INFINITY } else { distance };
         distance = simplex.grow((!is_known).then_some(corner), drift * done, nearer_than)?;
         let is_within = distance - course.radii <= enough;
@@ -115,7 +114,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
             _ if is_rough => is_rough = false,
             _ => break,
         }
-        // Round shapes take the axis from one point to the other, once it was projected on.
+        // Round shapes take the axis from one point to the other, after one more projection on it.
         is_near = is_within && course.radii > 0.0;
         axis = simplex.nearest / distance;
     }
@@ -123,8 +122,8 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
 }
 
 impl March<'_> {
-    /// What an axis shows after so much of the stretch. By rough supports, unless they are not wanted or the gap is
-    /// near what they may be off by: of one far below zero only the corner matters.
+    /// What an axis shows once `done` of the stretch is done. By rough supports, unless those are not wanted or the gap
+    /// is near their error; for a gap far below zero only the corner matters.
     fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
         // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
         let closing = axis.dot(self.drift) + 16.0 * f64::EPSILON * length(self.drift);
@@ -143,9 +142,9 @@ impl March<'_> {
 }
 
 impl Simplex {
-    /// Takes one corner more, and leaves out those that do not carry the point nearest to where the origin has moved
-    /// to. How far that is; nothing where it is among them. All faces are compared where the first that fits is not
-    /// `nearer_than` so many metres, or where no corner came: then the last need not be part of what is nearest.
+    /// Adds a corner, and drops those that do not carry the point nearest to `origin`, to where the origin has moved.
+    /// Returns that point's distance; `None` if the origin is contained. Compares all faces if the first that fits is
+    /// not nearer than `nearer_than`, or if no corner was added: then the last need not be part of the nearest face.
     fn grow(&mut self, corner: Option<Corner>, origin: DVec3, nearer_than: f64) -> Option<f64> {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;
@@ -159,7 +158,7 @@ impl Simplex {
         if corner.is_none() || !is_nearer {
             nearest = nearest_of_all(&seen);
         }
-        // Where they stay: picks ascend.
+        // In place: picks ascend.
         for (to, &from) in nearest.picks[..nearest.count].iter().enumerate() {
             self.corners[to] = self.corners[from];
         }
@@ -170,7 +169,7 @@ impl Simplex {
         (distance > 0.0).then_some(distance)
     }
 
-    /// The points of A and B that carry it.
+    /// The points of A and B at which the simplex' nearest point is.
     fn points(&self, a: &Solid, b: &Solid) -> [DVec3; 2] {
         [(a, 0), (b, 1)].map(|(solid, which)| {
             let mut corners = self
@@ -185,14 +184,15 @@ impl Simplex {
 }
 
 impl Course<'_> {
-    /// Both cores' points that are nearest, as they stand at the start of the stretch, taken to where the impact is.
+    /// The impact at the nearest points of both cores, which are given as at the start of the stretch and moved to the
+    /// impact.
     fn reached(
         &self,
         stretch: &Stretch,
         (done, normal, doubt): (f64, DVec3, f64),
         [on_a, on_b]: [DVec3; 2],
     ) -> Option<End> {
-        // Never beyond, whatever the sum's rounding.
+        // Never too far, whatever the sum's rounding.
         let fraction =
             if done > 0.0 { (stretch.from + done).next_down().min(stretch.to) } else { stretch.from };
         let [start, between] = [stretch.from, fraction].map(|at| self.passage.between_at(at));

@@ -1,4 +1,4 @@
-//! How two bodies move past each other, and how two of their parts stand at any moment of it.
+//! How two bodies move past each other, and how two of their parts stand at any moment.
 
 use crate::counted::count_step;
 use crate::level::Reach;
@@ -15,20 +15,21 @@ use asunder_geometry::{Basis3, Core3, Motion3, Pose3, Shape3, Turn3};
 pub(super) struct Passage {
     /// B's position less A's, at the start.
     pub(super) between: DVec3,
-    /// How far A moves in all, less B.
+    /// How far A moves in all, relative to B.
     pub(super) drift: DVec3,
     /// Both bodies' axes at the start.
     pub(super) bases: [Basis3; 2],
-    /// How they turn; nothing for one that does not, nor for a ball about its body's position.
+    /// How they turn; `None` for a body that does not, and for a ball about its body's position.
     pub(super) turns: [Option<Turn3>; 2],
     /// What rounding the positions of moved bodies may add to a gap.
     pub(super) rounding: f64,
 }
 
-/// For how many steps spheres are followed that turn with their bodies: what follows asks the parts themselves.
+/// Steps for which bounding spheres that turn with their bodies are followed: after that, the parts themselves are
+/// tested.
 const MAX_LOOKS: u32 = 12;
 
-/// What share of their radii apart such spheres count as met.
+/// Share of their radii within which such spheres count as met.
 const NEAR_ENOUGH: f64 = 1.0 / 64.0;
 
 /// Two convex parts of moving bodies.
@@ -36,19 +37,19 @@ pub(super) struct Course<'a> {
     pub(super) passage: &'a Passage,
     pub(super) parts: [Part<'a>; 2],
     cores: [&'a Core3<'a>; 2],
-    /// Both radii, in metres.
+    /// Sum of both radii, in metres.
     pub(super) radii: f64,
     pub(super) fineness: Fineness,
-    /// Bounding radii together, in metres; a half-space has none.
+    /// Sum of the bounding radii, in metres; a half-space has none.
     size: f64,
-    /// Those of the cores.
+    /// Sum of the cores' bounding radii.
     core_size: f64,
     /// For each part, how far its core reaches from its body's axis of turning, in metres, and from its body's
     /// position.
     pub(super) arms: [Arm; 2],
 }
 
-/// How near is near enough: at least so many metres, and some roundings of a projection.
+/// How near is near enough: in metres, but at least a few roundings of a projection.
 #[derive(Clone, Copy)]
 pub(super) struct Fineness {
     gap: f64,
@@ -56,15 +57,15 @@ pub(super) struct Fineness {
 }
 
 impl Fineness {
-    /// Rounding alone.
+    /// Limited by rounding alone.
     pub(super) const FINEST: Self = Self { gap: 0.0, rest: 0.0 };
 
-    /// Closer than this counts as met, where a projection is off by `doubt`.
+    /// A gap that counts as met, where a projection is off by up to `doubt`.
     pub(super) fn gap(self, doubt: f64) -> f64 {
         self.gap.max(16.0 * doubt)
     }
 
-    /// What a step leaves.
+    /// The gap that a step leaves.
     pub(super) fn rest(self, doubt: f64) -> f64 {
         self.rest.max(4.0 * doubt)
     }
@@ -83,7 +84,7 @@ pub(super) struct Moment<'a> {
     /// B's position less A's.
     pub(super) between: DVec3,
     pub(super) precision: Precision,
-    /// How far each body is turning just then, as vectors along the axes; zero for one that does not.
+    /// Each body's angular velocity at that moment; zero for one that does not turn.
     pub(super) spins: [DVec3; 2],
 }
 
@@ -108,14 +109,14 @@ pub(super) fn rounding_of(pose: &Pose3, displacement: DVec3) -> f64 {
     f64::EPSILON * (length(pose.position()) + length(displacement))
 }
 
-/// Whether nothing of a shape changes place as its body turns: a ball about its body's position. It counts as one that
-/// does not turn, so that it meets the same: of who turns, all of its arm would count as way that it makes.
+/// Whether a shape stays where it is as its body turns: a ball about the body's position. It is treated as one that
+/// does not turn, so that it meets the same; else all of its arm would count as a path along which it moves.
 fn is_round(shape: &Shape3) -> bool {
     shape.center() == Vec3::ZERO && shape.outer_radius() <= shape.radius()
 }
 
 impl Passage {
-    /// A moves and B stands; nobody turns.
+    /// A moves and B stands still; neither turns.
     pub(super) fn straight(pair: &Pair3, drift: DVec3) -> Self {
         let rounding = rounding_of(&pair.pose_a, drift);
         Self { between: pair.between, drift, bases: pair.bases(), turns: [None; 2], rounding }
@@ -146,12 +147,12 @@ impl Passage {
         }
     }
 
-    /// Whether nothing changes between the bodies.
+    /// Whether neither body moves relative to the other, and neither turns.
     pub(super) fn is_still(&self) -> bool {
         self.drift == DVec3::ZERO && self.turns.iter().all(Option::is_none)
     }
 
-    /// Whether nobody turns.
+    /// Whether neither body turns.
     pub(super) fn is_straight(&self) -> bool {
         self.turns.iter().all(Option::is_none)
     }
@@ -162,8 +163,8 @@ impl Passage {
         self.between - self.drift * fraction
     }
 
-    /// Where two parts may touch until a fraction: from where their bounding spheres meet to where they part.
-    /// Nothing where they never do. Those of a body that turns are about its position.
+    /// The stretch on which two parts may touch, up to a fraction: from where their bounding spheres meet to where they
+    /// part; `None` if they never meet. A body that turns has its sphere about its position.
     pub(super) fn stretch(&self, parts: [&Part; 2], until: f64) -> Option<Stretch> {
         let sphere = |i: usize| {
             let (center, radius) = (parts[i].center, f64::from(parts[i].shape.outer_radius()));
@@ -177,8 +178,8 @@ impl Passage {
         (self.is_straight() || self.may_meet(parts, until)).then_some(stretch)
     }
 
-    /// Whether the bounding spheres of two parts may meet until a fraction, by what they do while their bodies turn:
-    /// from where they are, on to where they may meet at the earliest (as `advance`, of spheres).
+    /// Whether the bounding spheres of two parts may meet up to a fraction, as they move while their bodies turn:
+    /// advances from where they are to where they may meet at the earliest (as `advance`, for spheres).
     fn may_meet(&self, parts: [&Part; 2], until: f64) -> bool {
         count_step();
         let arms = parts.map(|part| part.center.length());
@@ -210,12 +211,12 @@ impl Passage {
         true
     }
 
-    /// How far an arm of unit length of a body goes while it turns, by poses whose rotations are rounded to f32.
+    /// The furthest that the end of an arm of unit length moves, in poses whose rotations are rounded to f32.
     fn chord(&self, i: usize) -> f64 {
         self.turns[i].map_or(0.0, |turn| turn.chord() + 2.0 * f64::from(f32::EPSILON))
     }
 
-    /// How far apart points of two parts are, along whatever axis.
+    /// Bounds on how far apart points of two parts are, along any axis.
     pub(super) fn reach(&self, parts: &[Part; 2]) -> Reach {
         let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
         let radii: f64 = parts.iter().map(|part| finite(part.shape.outer_radius())).sum();
@@ -234,13 +235,13 @@ pub(super) struct Stretch {
     pub(super) to: f64,
     /// B's bounding sphere's centre less A's at the start of the motion.
     pub(super) apart: DVec3,
-    /// By how much a gap of those spheres may be off on the way.
+    /// How far off a gap of those spheres may be on the way.
     pub(super) doubt: f64,
 }
 
 impl Stretch {
-    /// From where two spheres meet to where they part, by their centres, each from its body's position, and B's
-    /// position less A's. No root and no quotient for what passes by: the cross product's square tells.
+    /// From where two spheres meet to where they part, given their centres, each from its body's position, and B's
+    /// position less A's. For spheres that pass by, the square of a cross product decides, without root or quotient.
     pub(super) fn of_spheres(
         [from, to, between]: [DVec3; 3],
         radii: f64,
@@ -266,7 +267,7 @@ impl Stretch {
         {
             return None;
         }
-        // Spheres a little wider, so that rounding leaves these apart where those meet and part.
+        // Slightly wider spheres, so that whatever rounding does, the real ones are apart where these meet and part.
         let (wide, inverse) = (radii + 4.0 * doubt, 1.0 / pace);
         let half_chord = (((wide * wide - beside * inverse) * inverse).max(0.0)).sqrt();
         let nearest = ahead * inverse;
@@ -291,12 +292,12 @@ impl<'a> Course<'a> {
         Self { passage, parts, cores, radii, fineness, size, core_size: (size - radii).max(0.0), arms }
     }
 
-    /// The same, moved until they are as near as that.
+    /// The same course, with another limit for how near counts as met.
     pub(super) fn refined_to(self, fineness: Fineness) -> Self {
         Self { fineness, ..self }
     }
 
-    /// Where both are at a fraction.
+    /// Both parts as they stand at a fraction.
     pub(super) fn at(&self, fraction: f64) -> Moment<'a> {
         let passage = self.passage;
         let between = passage.between_at(fraction);
@@ -306,8 +307,7 @@ impl<'a> Course<'a> {
         let ((basis_a, shift_a), (basis_b, shift_b)) =
             (self.parts[0].placed(&basis(0)), self.parts[1].placed(&basis(1)));
         let [a, b] = self.parts.map(|part| part.shape);
-        // What the positions and their difference lost is a few roundings of the way, where a projection has over a
-        // hundred.
+        // The positions and their difference lose a few roundings of the way, where a projection loses over a hundred.
         let way = (length(passage.between) + fraction * length(passage.drift)) / 32.0;
         let off_center = length(a.center().as_dvec3()) + length(b.center().as_dvec3());
         let reach = self.size + off_center + length(shift_a) + length(shift_b) + length(between) + way;
@@ -320,8 +320,8 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// What the rounding of poses at a fraction may add to a gap, in metres: of positions to f64, and of the
-    /// rotations of those that turn to f32.
+    /// What the rounding of poses at a fraction may add to a gap, in metres: positions to f64 and, for bodies that
+    /// turn, rotations to f32.
     pub(super) fn rounding(&self, fraction: f64, between: DVec3) -> f64 {
         let is_between = fraction > 0.0 && fraction < 1.0;
         let turned = |i: usize| match self.passage.turns[i] {

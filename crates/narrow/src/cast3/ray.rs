@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! sphere, capsule     roots of a quadratic, from the foot of the perpendicular                         (round)
-//! cuboid, hull        where the ray enters the last of the planes that it enters, if it leaves none before:
+//! cuboid, hull        the last plane that the ray enters, if it leaves none before:
 //!                     Cyrus and Beck (1978); for a box, slabs                                          (planes)
 //! half-space          one quotient                                                                     (planes)
 //! triangle            where it meets the plane, and on which side of three edges                       (planes)
@@ -11,17 +11,17 @@
 //! compound            the nearest of its parts; of many, nearest box first
 //! mesh, height field  the nearest of its triangles                                                     (ground)
 //! ```
-//! All in f64. Only whether the origin is inside is asked of exact arithmetic, where it lies within rounding of the
+//! All in f64. Exact arithmetic decides only whether the origin is inside, where it lies within rounding of the
 //! surface.
 //!
 //! What makes it fast:
 //!
 //! 1. distances are in lengths of the direction as it was given: no root and no division make it of unit length;
-//! 2. a sphere is met in world axes, so that no rotation is made a matrix of; a capsule turns two vectors out, a
-//!    cuboid two in;
-//! 3. insides are told by squares, and a sphere around a hull is passed by the square of a cross product: roots are
-//!    drawn of what is hit, and there the error's beside the distance's;
-//! 4. no sphere is asked about before a closed form of its own cost.
+//! 2. a sphere is tested in world axes, so that no rotation is converted to a matrix; a capsule turns two vectors out,
+//!    a cuboid two in;
+//! 3. inside or outside is decided by squares, and a sphere around a hull is passed by the square of a cross product:
+//!    roots are taken only for hits, and then the error's together with the distance's;
+//! 4. no bounding sphere is tested before a closed form that costs as little.
 
 mod ground;
 mod planes;
@@ -39,10 +39,10 @@ use crate::pair3::{Pair3, Part, for_parts};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Ground, Pose3, Ray3, Shape3, Sphere};
 
-/// What the ray's origin is as a shape.
+/// The ray's origin as a shape.
 ///
-/// No hull of one vertex: such a one is told as a micrometre in radius, and what casts of small bodies allow for would be
-/// that of a larger pair.
+/// Not a hull of one vertex: that counts as a micrometre in radius, and the tolerances of casts of small bodies would
+/// be those of a larger pair.
 static POINT: Shape3 = Shape3::Sphere(Sphere::POINT);
 
 /// A ray seen from a part's origin, in world axes.
@@ -54,7 +54,7 @@ struct Line {
     way: DVec3,
     /// The square of its length.
     squared: f64,
-    /// How far a point on it may be beside its place, up to where it passes the shape, in metres.
+    /// Rounding error of a point on it, up to where it passes the shape, in metres.
     doubt: f64,
 }
 
@@ -62,12 +62,12 @@ struct Line {
 #[derive(Clone, Copy, Debug)]
 enum Meeting {
     Never,
-    /// So many lengths of the direction from the origin, with the surface's outward normal in world axes and the error,
-    /// in metres along the ray.
+    /// At a distance in lengths of the direction, with the surface's outward normal in world axes, and the error in
+    /// metres along the ray.
     At(f64, DVec3, f64),
     /// It starts inside.
     Inside,
-    /// Whether it starts inside is below rounding; and if it does not, whether it meets the part at once.
+    /// Rounding leaves open whether it starts inside; and if it does not, whether it meets the part at once.
     Unclear,
     /// There is no closed form.
     Open,
@@ -78,19 +78,19 @@ enum Meeting {
 ///
 /// - An origin inside the shape, or on its surface exactly, is a hit at distance 0.
 /// - Else the distance is right up to `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance
-///   from the shape and of its size, over the cosine to the normal; for a hull also four times what its faces are off
-///   from its vertices ([`planarity_error`](asunder_geometry::Hull::planarity_error)), and for one whose outer radius
-///   is more than four times its inner radius all that as many times more.
-/// - By as much, before it is divided by the cosine, a ray may have gone into a shape that it is said to miss, and what
-///   it is said to hit may lie beside it. A thin shape (segment, triangle, flat hull) is hit by what passes within
-///   rounding.
-/// - In a compound it meets the nearest part, but one that it starts inside of before any other.
-/// - On ground it meets the nearest triangle, but one that it starts on before any other, and of equals the lowest
-///   number. No ray slips through between two that share an edge or a vertex. One-sided triangles are passed through
-///   from behind.
+///   from the shape and of its size, over the cosine to the normal. For a hull that includes four times the distance of
+///   its faces from its vertices ([`planarity_error`](asunder_geometry::Hull::planarity_error)); and if its outer
+///   radius is more than four times its inner radius, all of that is multiplied by a quarter of their ratio.
+/// - By as much, before it is divided by the cosine, a ray may have gone into a shape that it is said to miss, or may
+///   pass beside one that it is said to hit. A thin shape (segment, triangle, flat hull) is hit by a ray that passes
+///   within rounding.
+/// - In a compound it meets the nearest part, but a part that it starts inside of comes before any other.
+/// - On ground it meets the nearest triangle, but one that it starts on comes before any other; of equals, the lowest
+///   number. No ray slips through between two triangles that share an edge or a vertex. One-sided triangles are passed
+///   through from behind.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a
-/// few distances, about a microsecond, for what is rounded, for segments and flat hulls, and beside the faces of hulls
+/// few distances, about a microsecond, for rounded shapes, for segments and flat hulls, and beside the faces of hulls
 /// so thin that their faces' roundings matter.
 ///
 /// ```
@@ -140,7 +140,7 @@ struct Cast<'a> {
 }
 
 impl<'a> Cast<'a> {
-    /// The ray as a part sees it whose origin is `shift` from the body's, and that reaches so far from there.
+    /// The ray as seen from a part whose origin is at `shift` from the body's, and which reaches `size` from there.
     #[inline(always)]
     fn line(&self, shift: DVec3, size: f64) -> Line {
         // A subtraction, a rotation of a part or two, and the ray's direction to where it passes.
@@ -148,8 +148,8 @@ impl<'a> Cast<'a> {
         Line { origin: self.from - shift, way: self.way, squared: self.squared, doubt }
     }
 
-    /// The nearest of a compound's parts: of few one after the other, of many in the order in which it meets their
-    /// boxes.
+    /// The nearest hit on a compound's parts: if there are few, one after the other; if many, in the order in which
+    /// their boxes are met.
     fn over_parts(&self, basis: &Basis3, limit: f64) -> Option<RayHit3> {
         let mut first: Option<RayHit3> = None;
         let mut offer = |part: Part<'a>| {
@@ -157,7 +157,7 @@ impl<'a> Cast<'a> {
             let (axes, shift) = part.placed(basis);
             let meeting = self.meeting(part.shape, &axes, shift, within);
             let hit = self.answer(meeting, within, || part).map(|hit| RayHit3 { part: part.index, ..hit });
-            // Of equals, the first; and what it starts inside of before all.
+            // Of equals, the first; but a part that the ray starts inside of comes before all.
             let place = |hit: &RayHit3| (!hit.inside, hit.distance, hit.part);
             let is_first = |hit: &RayHit3| first.is_none_or(|known| place(hit) < place(&known));
             first = hit.filter(is_first).or(first);
@@ -171,14 +171,15 @@ impl<'a> Cast<'a> {
             return first;
         };
         let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
-        // What is met by steps counts as hit some thousand roundings off, where it all but touches the origin.
+        // What is met by steps counts as hit from up to some thousand roundings away, where it all but touches the
+        // origin.
         let grown = (65536.0 * f64::EPSILON * (length(self.from) + size)) as f32;
         let (from, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
         compound.visit_along(from, way, grown, limit, |index| offer(Part::of(compound, index, basis)));
         first
     }
 
-    /// Where it meets a convex shape, by its axes and its origin less the body's position.
+    /// Where the ray meets a convex shape, given the shape's axes and its origin less the body's position.
     #[inline]
     fn meeting(&self, shape: &Shape3, basis: &Basis3, shift: DVec3, limit: f64) -> Meeting {
         match shape {
@@ -198,7 +199,7 @@ impl<'a> Cast<'a> {
         }
     }
 
-    /// The same where it pays to ask about the bounding sphere first.
+    /// The same for shapes whose bounding sphere is worth testing first.
     fn beyond_sphere(&self, shape: &Shape3, basis: &Basis3, shift: DVec3, limit: f64) -> Meeting {
         let (radius, center) = (f64::from(shape.outer_radius()), shape.center().as_dvec3());
         let line = self.line(shift, radius + length(center));
@@ -223,7 +224,7 @@ impl<'a> Cast<'a> {
         }
     }
 
-    /// What is told of a meeting with a part, if it is within the limit.
+    /// The hit that is reported for a meeting with a part, if it is within the limit.
     #[inline]
     fn answer(&self, meeting: Meeting, limit: f64, part: impl FnOnce() -> Part<'a>) -> Option<RayHit3> {
         match meeting {
@@ -235,7 +236,7 @@ impl<'a> Cast<'a> {
         }
     }
 
-    /// The same of what had a closed form.
+    /// The same for a meeting in closed form.
     #[inline(always)]
     fn told(&self, meeting: Meeting, limit: f64) -> Option<RayHit3> {
         match meeting {
@@ -251,7 +252,7 @@ impl<'a> Cast<'a> {
         }
     }
 
-    /// It starts in the shape.
+    /// The hit of a ray that starts in the shape.
     fn inside(&self) -> RayHit3 {
         let normal = (self.way / -self.squared.sqrt()).as_vec3();
         RayHit3 { distance: 0.0, error: 0.0, normal, inside: true, part: 0 }
@@ -273,7 +274,7 @@ impl<'a> Cast<'a> {
         let (pace, radius) = (self.squared.sqrt(), f64::from(part.shape.outer_radius()));
         let unit = self.way / pace;
         let beyond = length(part.center - self.from) + radius;
-        // Whatever the limit is, so that it changes no answer. A half-space is here only where the ray starts on
+        // Independent of the limit, which must not change the answer. A half-space comes here only if the ray starts on
         // its surface.
         let far = if radius.is_finite() { beyond * 1.0625 } else { 1.0 };
         let pair = Pair3::new(&POINT, &origin, self.shape, self.pose);
@@ -289,7 +290,7 @@ impl<'a> Cast<'a> {
         };
         let steep = met.normal.dot(unit).abs();
         let error = if met.gap <= steep * radius { met.gap / steep } else { 2.0 * radius };
-        // Where it starts within rounding of the surface, so may the axis be rounding.
+        // Where the ray starts within rounding of the surface, the axis may be rounding too.
         let normal = if met.normal.dot(unit) < 0.0 { -unit } else { -met.normal };
         Some(RayHit3 {
             distance: met.fraction * far / pace,
@@ -306,14 +307,14 @@ impl Line {
         self.origin + self.way * distance
     }
 
-    /// How far a point of the ray may be beside its place there, and the direction's length, both in metres.
+    /// Rounding error of a point on the ray at a distance, and the direction's length, both in metres.
     #[inline(always)]
     fn doubt_at(&self, distance: f64) -> (f64, f64) {
         let pace = self.squared.sqrt();
         (self.doubt + 64.0 * f64::EPSILON * distance * pace, pace)
     }
 
-    /// The error of a distance to a plane, by how fast it is approached and by what the plane is off.
+    /// The error of a distance to a plane: `closing` is how fast the ray approaches it, `off` the plane's own error.
     #[inline(always)]
     fn error(&self, distance: f64, closing: f64, off: f64) -> f64 {
         let (doubt, pace) = self.doubt_at(distance);

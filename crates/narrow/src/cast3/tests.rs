@@ -75,7 +75,7 @@ fn half_spaces_meet_only_where_they_look_at_each_other() {
     assert_eq!(pair.cast(Vec3::Y), None);
     let endless = Pair3::new(&floor, &low, &floor, &high).cast(Vec3::Y).unwrap();
     assert!(endless.overlapping && endless.anchor_a == Vec3::ZERO && endless.normal.is_normalized());
-    // One that turns is no longer parallel: they meet far out at once.
+    // A half-space that turns is no longer parallel: they meet far out at once.
     let tilt = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.1, 0.0, 0.0, 1.0)).unwrap();
     let met = pair.impact(&tilt, &Motion3::shift(Vec3::ZERO).unwrap()).unwrap();
     assert!(met.fraction == 0.0 && met.error >= 2.0, "{met:?}");
@@ -112,7 +112,7 @@ fn what_turns_in_place_and_reaches_nothing_misses() {
     let (here, there) = (at(0.0, 0.0, 0.0), at(0.0, 1.501, 0.0));
     assert_eq!(Pair3::new(&rod, &here, &ball, &there).impact(&half, &still), None);
     assert_eq!(Pair3::new(&ball, &here, &ball, &there).impact(&half, &half), None);
-    // A wheel on a road that all but touches it.
+    // A wheel on a road that it all but touches.
     let wheel = Shape3::from(Hull::from_points(&wheel(64)).unwrap());
     let road = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
     let (axle, ground) = (at(0.0, 1.001, 0.0), at(0.0, 0.0, 0.0));
@@ -135,7 +135,7 @@ fn glam_free(share: f64) -> (f32, f32) {
     (x.y as f32, x.x as f32)
 }
 
-/// Numbers from -1 to 1, the same at every run.
+/// Numbers from -1 to 1, the same in every run.
 fn numbers() -> impl FnMut() -> f32 {
     let mut state = 11_u32;
     move || {
@@ -151,7 +151,7 @@ fn boxes_by_their_axes_and_balls_by_their_own_meet_where_their_hulls_do() {
     for case in 0..4000 {
         let mut vector = || Vec3::new(number(), number(), number());
         let halves = [vector(), vector()].map(|half| half.abs() + 0.05);
-        // Every fourth pair is turned alike, so that faces and edges lie on each other.
+        // Every fourth pair has equal rotations, so that faces and edges lie on each other.
         let turn = vector();
         let other = if case % 4 == 0 { turn } else { vector() };
         let [here, there] = [(Vec3::ZERO, turn), (vector() * 6.0, other)]
@@ -173,7 +173,7 @@ fn boxes_by_their_axes_and_balls_by_their_own_meet_where_their_hulls_do() {
                 hits += usize::from(!quick.overlapping);
                 assert_eq!(quick.overlapping, slow.overlapping, "{told}");
                 assert!(quick.error < 1e-8, "{told}");
-                // Each is before the true one by no more than its gap over how fast that closes.
+                // Each is before the true fraction by no more than its gap over the speed at which that closes.
                 let closing = f64::from(slow.normal.dot(way).min(quick.normal.dot(way)));
                 let room = f64::from(quick.error + slow.error) / closing.max(1e-3);
                 assert!((quick.fraction - slow.fraction).abs() <= 2.0 * room, "{told}");
@@ -223,7 +223,7 @@ fn a_ball_that_turns_about_its_middle_rolls_into_what_one_that_does_not_turn_rol
     assert!(at_start > 20 && later > 100 && passed > 100, "{at_start} {later} {passed}");
 }
 
-/// A slab of so many cuboids along both sides, each tilted in a way of its own.
+/// A slab of `count` by `count` cuboids, each tilted in a way of its own.
 fn slab(numbers: &mut Numbers, count: u32) -> Shape3 {
     let mut tilt = || numbers.number() as f32 * 0.01;
     let half = f64::from(count) / 2.0;
@@ -234,7 +234,8 @@ fn slab(numbers: &mut Numbers, count: u32) -> Shape3 {
     Compound3::new(parts).unwrap().into()
 }
 
-/// Two slabs that lie on each other, pressed together: each pair of parts that meets was compared with each contact.
+/// Two slabs that lie on each other, pressed together: once, each pair of parts that meets was compared with each
+/// contact.
 #[test]
 fn what_is_met_next_takes_as_much_longer_as_there_are_more_contacts() {
     let mut numbers = Numbers::new(5730);
@@ -265,7 +266,7 @@ fn what_comes_up_through_one_sided_ground_passes_the_edge_of_what_is_beside() {
     let (one_sided, both_sides) = (Shape3::from(valley().one_sided()), Shape3::from(valley()));
     let tilt = Quat::from_xyzw(1e-4, 0.0, 1e-4, 1.0);
     let still = Motion3::STILL;
-    // In the hill behind the slope, and above the plane of the floor, whose end is on the way of the lowest ball.
+    // In the hill behind the slope, and above the plane of the floor, whose end is in the way of the lowest ball.
     for (body, turn, height) in [(&ball, Quat::IDENTITY, 0.25), (&ball, tilt, 0.25), (&capsule, tilt, 0.75)] {
         let here = at(2.0, height, 0.1);
         let from = |way: Vec3, ground: &Shape3| {
@@ -277,7 +278,7 @@ fn what_comes_up_through_one_sided_ground_passes_the_edge_of_what_is_beside() {
         let [ours, theirs] = from(Vec3::new(-3.0, -0.1, 0.0), &one_sided).map(Option::unwrap);
         assert!(ours.normal == Vec3::NEG_Y && theirs.normal == Vec3::Y, "{ours:?} {theirs:?}");
     }
-    // From above, and by ground of two sides, it is stopped all the same.
+    // From above, and by two-sided ground, it is stopped all the same.
     let above = Pair3::new(&ball, &at(-1.0, 1.0, 0.0), &one_sided, &Pose3::IDENTITY);
     assert_eq!(above.cast(Vec3::NEG_Y).unwrap().normal, Vec3::NEG_Y);
     let behind = Pair3::new(&ball, &at(2.0, 0.25, 0.1), &both_sides, &Pose3::IDENTITY);

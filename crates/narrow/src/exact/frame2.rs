@@ -1,7 +1,8 @@
 //! Two bodies in the plane, in world axes about A's position.
 //!
-//! The stored matrix [c -s; s c] means what it says, so that a common power of two is all it takes to make it integers:
-//! no denominator, and coordinates of some 80 bits. A part's matrix is multiplied by its body's. Heights are zero.
+//! The stored matrix [c -s; s c] is exact as it stands, so a common power of two is all it takes to make it integers:
+//! no denominator, and coordinates of some 80 bits. A part's matrix is multiplied by its body's. The third coordinate
+//! is zero.
 
 use super::int::Int;
 use super::question::{Body, Question, Turn, Vertices, common_unit, in_units};
@@ -12,19 +13,19 @@ use asunder_geometry::{Core2, Pose2, Shape2};
 pub(crate) struct Site2<'a> {
     pub(crate) shape: &'a Shape2,
     pub(crate) body: Pose2,
-    /// Where it is in its compound, if it is part of one.
+    /// Its pose in its compound, if it is part of one.
     pub(crate) part: Option<&'a Pose2>,
 }
 
 /// Cosine and sine.
 type Rotation = [Int; 2];
 
-/// The question whether two shapes meet. `cores` are theirs.
+/// The question whether two shapes overlap. `cores` are theirs.
 pub(super) fn question<'a>(sites: [&'a Site2<'a>; 2], cores: [&'a Core2<'a>; 2]) -> Question<'a> {
     question_of(sites, cores, sites.map(|site| site.shape.radius()))
 }
 
-/// The same of shapes with radii that are not theirs, but multiples of the same unit: theirs, and zero.
+/// The same with other radii than the shapes' own, but multiples of the same unit: such as theirs, and zero.
 pub(super) fn question_of<'a>(
     sites: [&'a Site2<'a>; 2],
     cores: [&'a Core2<'a>; 2],
@@ -35,12 +36,12 @@ pub(super) fn question_of<'a>(
     let unit = common_unit(sites.iter().zip(&vertices).flat_map(|(site, vertices)| lengths(site, vertices)));
     let poses = || sites.into_iter().flat_map(|site| [Some(&site.body), site.part]).flatten();
     let entries = |pose: &Pose2| [pose.rotation().cos(), pose.rotation().sin()].map(f64::from);
-    // 1 is among them: positions are multiplied by what the matrices were.
+    // With 1 among the values, since positions are multiplied by the matrices' common factor.
     let turn_unit = common_unit(poses().flat_map(entries).chain([1.0]));
     let rotation = |pose: &Pose2| entries(pose).map(|entry| in_units(entry, turn_unit));
     let one = in_units(1.0, turn_unit);
     let has_parts = sites.iter().any(|site| site.part.is_some());
-    // With a part anywhere, everything is multiplied twice.
+    // If either shape is a part, everything is multiplied twice.
     let weight = if has_parts { one.square() } else { one.clone() };
     let turn = |site: &Site2| {
         let body = rotation(&site.body);
@@ -85,7 +86,7 @@ pub(super) fn question_of<'a>(
     }
 }
 
-/// Everything that is measured in metres.
+/// All lengths that enter.
 fn lengths<'a>(site: &'a Site2, vertices: &'a Vertices) -> impl Iterator<Item = f64> + 'a {
     let position = site.body.position().to_array().into_iter();
     let place = site.part.into_iter().flat_map(|part| part.position().to_array());

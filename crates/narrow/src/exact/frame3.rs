@@ -1,10 +1,10 @@
-//! Two bodies in space, seen exactly from A.
+//! Two bodies in space, in exact coordinates relative to A.
 //!
 //! ```text
 //! Q    = body's quaternion times the part's own           (a shape that is no part: the body's)
 //! r    = conjugate(Q_a) Q_b, or 1 where its vector part vanishes: the bodies are turned alike
-//! s    = (position of B's origin less that of A's) x m, where m clears what the parts' places are divided by
-//! seen from A:  b -> M(r)/|r|^2 b + M(Q_a)^T/|Q_a|^2 s/m
+//! s    = (position of B's origin less that of A's) x m, where m clears the denominators of the parts' positions
+//! relative to A:  b -> M(r)/|r|^2 b + M(Q_a)^T/|Q_a|^2 s/m
 //! times W = |r|^2 m where that clears |Q_a|^2 too, else |Q_a|^2 m:  all integers
 //! ```
 
@@ -18,11 +18,11 @@ use asunder_geometry::{Core3, Pose3, Shape3};
 pub(crate) struct Site3<'a> {
     pub(crate) shape: &'a Shape3,
     pub(crate) body: Pose3,
-    /// Where it is in its compound, if it is part of one.
+    /// Its pose in its compound, if it is part of one.
     pub(crate) part: Option<&'a Pose3>,
 }
 
-/// The question whether two shapes meet. `cores` are theirs.
+/// The question whether two shapes overlap. `cores` are theirs.
 pub(super) fn question<'a>(sites: [&'a Site3<'a>; 2], cores: [&'a Core3<'a>; 2]) -> Question<'a> {
     let [site_a, site_b] = sites;
     let vertices = cores.map(|core| Vertices::Space(core.vertices()));
@@ -30,7 +30,7 @@ pub(super) fn question<'a>(sites: [&'a Site3<'a>; 2], cores: [&'a Core3<'a>; 2])
     let turns = turns(sites);
     let (between, cleared) = between(sites, unit);
     let back = turned(&turns.to_a, &between);
-    // Where r was made 1, its length clears nothing of A's; else it has A's and B's in it.
+    // If r was replaced by 1, its length clears nothing of A's; else it contains A's and B's.
     let (outer, inner) =
         if turns.are_alike { (&turns.squared_a * &cleared, Int::ONE) } else { (cleared, turns.squared_b) };
     let weight = if turns.are_alike { outer.clone() } else { &outer * &(&turns.squared_a * &inner) };
@@ -59,7 +59,7 @@ pub(super) fn question<'a>(sites: [&'a Site3<'a>; 2], cores: [&'a Core3<'a>; 2])
     }
 }
 
-/// Everything that is measured in metres.
+/// All lengths that enter.
 fn lengths<'a>(site: &'a Site3, vertices: &'a Vertices) -> impl Iterator<Item = f64> + 'a {
     let position = site.body.position().to_array().into_iter();
     let place = site.part.into_iter().flat_map(|part| part.position().to_array());
@@ -79,7 +79,7 @@ fn turns(sites: [&Site3; 2]) -> Turns {
     Turns::between(&a, &b)
 }
 
-/// B's origin less A's in world axes, and the factor that it was multiplied by.
+/// B's origin less A's in world axes, and the factor that it was multiplied by to be an integer.
 fn between(sites: [&Site3; 2], unit: i32) -> ([Int; 3], Int) {
     let place = |pose: &Pose3| pose.position().to_array().map(|value| in_units(value, unit));
     let (at_a, at_b) = (place(&sites[0].body), place(&sites[1].body));
@@ -89,7 +89,7 @@ fn between(sites: [&Site3; 2], unit: i32) -> ([Int; 3], Int) {
     }
     let whole = sites.map(|site| quaternion(&site.body));
     let squares = [squared(&whole[0]), squared(&whole[1])];
-    // A part's place is divided by its own body's square alone.
+    // A part's position has only its own body's square for a denominator.
     let shift = |i: usize| match sites[i].part {
         Some(part) => turned(&matrix(&whole[i]), &place(part)).map(|c| &c * &squares[1 - i]),
         None => [Int::ZERO, Int::ZERO, Int::ZERO],

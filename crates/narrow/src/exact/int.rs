@@ -1,16 +1,16 @@
 //! Signed integers of any length, made for a few hundred products of one to five limbs.
 //!
-//! Representation: sign and magnitude. The magnitude is a row of 64-bit limbs, little-endian, trimmed (zero has none),
-//! held in the value itself up to twelve limbs (768 bits, 136 bytes in all) and in a row beyond ([`spill`]). What is
-//! typical here, factors of 1 to 5 limbs and their sums of products, needs none; rows are used again.
+//! Representation: sign and magnitude. The magnitude is an array of 64-bit limbs, little-endian, trimmed (zero has
+//! none): held in the value itself up to twelve limbs (768 bits, 136 bytes in all), on the heap beyond ([`spill`]).
+//! What is typical here, factors of 1 to 5 limbs and their sums of products, needs no heap; heap memory is reused.
 //!
-//! Why sign and magnitude: the sign, which is all that most callers ask for, is read and not searched; a product needs
-//! no correction; and the length says how large a number is. Two's complement is better at one thing, sums whose sign
-//! is a coin toss, and the inner loops (`limbs`) use it there: no branch depends on a sign.
+//! Why sign and magnitude: most callers ask only for the sign, which is stored; a product needs no correction; and the
+//! length says how large a number is. Two's complement is better at one thing, sums whose sign is a coin toss, and the
+//! inner loops (`limbs`) use it there: no branch depends on a sign.
 //!
-//! Why not a general crate: those allocate for every result and loop over lengths known only as they run, and both
-//! cost more than the arithmetic. Nanoseconds, ours before the stroke and num-bigint 0.4 behind it (AMD EPYC, family 25
-//! model 17, one core; rustc 1.95, no target features; one length throughout, so branches are foreseen):
+//! Why not a general crate: those allocate for every result and loop over lengths known only at run time, and both cost
+//! more than the arithmetic. Nanoseconds, ours before the stroke and num-bigint 0.4 behind it (AMD EPYC, family 25
+//! model 17, one core; rustc 1.95, no target features; one length throughout, so branches are predicted):
 //!
 //! ```text
 //! limbs          1x1       2x2       2x3       3x3       5x5      10x10
@@ -20,17 +20,17 @@
 //! dot3           9 / 89   14 / 118  20 / 125  37 / 140  63 / 194 474 / 460
 //! ```
 //!
-//! Cost: sums are linear in the limbs, products quadratic (schoolbook at any length), the rest is constant save for
+//! Cost: sums are linear in the limbs, products quadratic (schoolbook at any length), the rest is constant except for
 //! `clone`.
 //!
 //! Four things make the difference:
 //! 1. Short operands are padded with zeros to one of a few fixed lengths, whose loops the compiler unrolls into
 //!    registers. Limbs above `len` are zero for that purpose.
 //! 2. [`sum_of_products`] picks those lengths once for an inner product, and resolves the sign once.
-//! 3. Results leave the registers only once. Built in a local that is then returned, they are stored, loaded and
+//! 3. Results leave the registers only once. Built in a local that is then returned, they would be stored, loaded and
 //!    stored again: a product of 1x1 limbs takes 9 ns that way, against 4.
-//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, a product of 5x5 that is added on
-//!    38 or 42 in place of 32; saved are allocations that only the longest results need.
+//! 4. Twelve limbs in place. With 16 or 20, tried: 2x3 takes 8 ns in place of 7, a product of 5x5 that is added on 38
+//!    or 42 in place of 32; that saves only allocations that the longest results need.
 //!
 //! Tried, the loops on slices over other storage, products 1x1, 2x3, 5x5: smallvec 11, 14, 28 ns; arrayvec, which
 //! cannot grow, 8, 11, 27 ns.
@@ -160,7 +160,7 @@ impl Int {
         int
     }
 
-    /// Sets `len`, which is at most `len`; of numbers held in place only.
+    /// Sets the length, at most `len`; for numbers held in place only.
     #[inline]
     fn trim(&mut self, mut len: usize) {
         len = len.min(INLINE);
@@ -211,7 +211,7 @@ impl Int {
         product
     }
 
-    /// `self + term`, the term given a sign of its own.
+    /// `self + term`, with a sign given for the term.
     #[inline]
     fn sum(&self, term: &Self, negative: bool) -> Self {
         if self.len.max(term.len) < INLINE {
@@ -239,7 +239,7 @@ impl Int {
         Self { inline, spilled: None, len, negative: (self.negative ^ flipped) & (len > 0) }
     }
 
-    /// `self += term`, the term given a sign of its own.
+    /// `self += term`, with a sign given for the term.
     #[inline]
     fn accumulate(&mut self, term: &Self, negative: bool) {
         if self.len.max(term.len) < INLINE {
@@ -249,7 +249,7 @@ impl Int {
         }
     }
 
-    /// Both below `INLINE` limbs.
+    /// The same for operands below `INLINE` limbs.
     fn accumulate_inline(&mut self, term: &[u64; INLINE], len: usize, negative: bool) {
         let longest = self.len.max(len);
         let subtract = self.negative ^ negative;

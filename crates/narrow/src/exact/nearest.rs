@@ -1,16 +1,16 @@
 //! The point of an exact simplex that is nearest to the origin, and the corners that carry it.
 //!
 //! ```text
-//! corners carry the nearest point exactly if
-//!   the point of their flat that is nearest to the origin has a positive share of each, and
-//!   no corner left out lies nearer along it
+//! a set of corners carries the nearest point exactly if
+//!   the point of its affine hull nearest to the origin has a positive weight on each corner, and
+//!   no other corner lies nearer along that point's direction
 //! one corner:     G[i][k] >= G[i][i] for every other k
-//! two:            shares G[j][j] - G[i][j] and G[i][i] - G[i][j]; their mean's product with k less that with i
-//! three:          shares from the 2 x 2 system of their edges; the other corner on the side away from the origin
+//! two:            weights G[j][j] - G[i][j] and G[i][i] - G[i][j]; their mean's product with k is at least that with i
+//! three:          weights from the 2 x 2 system of their edges; the other corner on the side away from the origin
 //! four:           the origin is on the same side of all four faces
 //! ```
-//! G is the Gram matrix, `G[i][j] = p_i . p_j`. At most fifteen candidates, tried until one passes: at least one set of
-//! independent corners does, whatever the rest is, and all that do have the same nearest point.
+//! G is the Gram matrix, `G[i][j] = p_i . p_j`. There are at most fifteen candidate sets, tried until one passes: at
+//! least one set of independent corners does, whatever the others are, and all that pass have the same nearest point.
 
 use super::Corner;
 use super::int::{Int, cross3, dot3, sum_of_products};
@@ -22,18 +22,19 @@ use core::cmp::Ordering;
 pub(super) struct Simplex {
     points: ArrayVec<[Int; 3], 4>,
     corners: ArrayVec<Corner, 4>,
-    /// Products of corners, the later one first.
+    /// Dot products of corners, indexed by the later corner first.
     gram: [[Int; 4]; 4],
-    /// Whether the corners but the last carried the nearest point of before, so that the last is among those that do.
+    /// Whether all corners but the last carried the previous nearest point, so that the last is among those that carry
+    /// the next.
     is_grown: bool,
 }
 
-/// What carries the nearest point.
+/// The result of [`Simplex::reduce`].
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one step")]
 pub(super) enum Carried {
     /// The origin is in the simplex.
     Origin,
-    /// Corners; the nearest point lies in this direction, of any length.
+    /// The corners that are left carry the nearest point, which lies in this direction, of any length.
     By([Int; 3]),
 }
 
@@ -52,7 +53,7 @@ impl Simplex {
         self.points.is_empty()
     }
 
-    /// One corner more; nothing happens where it is known, or where there are four.
+    /// Adds a corner, unless it is there already or there are four.
     pub(super) fn push(&mut self, corner: Corner, point: [Int; 3]) {
         if self.points.is_full() || self.corners.contains(&corner) {
             return;
@@ -61,21 +62,21 @@ impl Simplex {
         self.corners.push(corner);
     }
 
-    /// One of the corners. All that carry the nearest point have the same projection on its direction.
+    /// One of the corners. All corners that carry the nearest point have the same projection on its direction.
     pub(super) fn first(&self) -> &[Int; 3] {
         &self.points[0]
     }
 
     /// Drops all corners that do not carry the nearest point.
     ///
-    /// Most corners that come from f64 do, so that the largest sets are tried first.
+    /// Most corners that come from f64 do, so the largest sets are tried first.
     pub(super) fn reduce(&mut self) -> Carried {
         if self.is_around_origin() {
             return Carried::Origin;
         }
         self.multiply();
         let count = self.points.len();
-        // Once reduced, only sets with the newest corner can have a nearer point.
+        // After a reduction, only sets with the newest corner can have a nearer point.
         let newest = if self.is_grown { count - 1 } else { 0 };
         for i in (newest..count).rev() {
             for (j, k) in (0..i).rev().flat_map(|j| (0..j).rev().map(move |k| (j, k))) {
@@ -99,8 +100,7 @@ impl Simplex {
         Carried::Origin
     }
 
-    /// Whether there are four corners, and the origin is strictly inside: its volumes with all four faces have one
-    /// sign.
+    /// Whether there are four corners, with the origin strictly inside: its volumes with all four faces have one sign.
     fn is_around_origin(&self) -> bool {
         let [a, b, c, d] = self.points.as_slice() else { return false };
         let (ab, cd) = (cross3(a, b), cross3(c, d));
@@ -127,7 +127,7 @@ impl Simplex {
         }
         let points = set.iter().map(|&i| self.points[i].clone()).collect();
         let corners = set.iter().map(|&i| self.corners[i]).collect();
-        // The set is in order, so that products move down only.
+        // The set is in ascending order, so products only move down.
         for (to_i, &i) in set.iter().enumerate() {
             for (to_j, &j) in set[..=to_i].iter().enumerate() {
                 self.gram[to_i][to_j] = self.gram[i][j].clone();
@@ -149,7 +149,7 @@ impl Simplex {
         self.others(&[i]).all(|k| self.product(i, k) >= self.product(i, i))
     }
 
-    /// The direction of the nearest point, if two corners carry it; zero where it is the origin.
+    /// The direction of the nearest point, if these two corners carry it; zero if it is the origin.
     fn carries_two(&self, i: usize, j: usize) -> Option<[Int; 3]> {
         let cross = self.product(i, j);
         let share_i = self.product(j, j) - cross;
@@ -169,10 +169,10 @@ impl Simplex {
         is_nearest.then(|| [mean(0), mean(1), mean(2)])
     }
 
-    /// The direction of the nearest point, if three corners carry it; zero where it is the origin.
+    /// The direction of the nearest point, if these three corners carry it; zero if it is the origin.
     fn carries_three(&self, set: [usize; 3]) -> Option<[Int; 3]> {
         let [i, j, k] = set;
-        // Edges from k, seen from k.
+        // Dot products of the edges from k: with corner k (`along`), and with each other.
         let (at_k, at_i, at_j) = (self.product(k, k), self.product(i, k), self.product(j, k));
         let (along_i, along_j) = (at_i - at_k, at_j - at_k);
         let ii = &(self.product(i, i) - at_i) - &along_i;

@@ -6,18 +6,18 @@ use super::nearest::{Carried, Simplex};
 use asunder_geometry::glam::{DVec3, Vec2, Vec3};
 use core::cmp::Ordering;
 
-/// The stored vertices of a core. In the plane, space without height.
+/// The stored vertices of a core; in the plane, with a third coordinate of zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Vertices<'a> {
     Plane(&'a [Vec2]),
     Space(&'a [Vec3]),
 }
 
-/// How a shape's own axes look from the common frame, times the frame's weight.
+/// The rotation from a shape's own axes to the common frame, times the frame's weight.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one question")]
 #[derive(Clone)]
 pub(super) enum Turn {
-    /// They are the frame's.
+    /// The shape's axes are the frame's.
     Weight(Int),
     /// Rows of a matrix.
     Matrix([[Int; 3]; 3]),
@@ -63,7 +63,7 @@ impl Vertices<'_> {
         (0..self.len()).flat_map(|vertex| self.at(vertex).to_array())
     }
 
-    /// A vertex in units.
+    /// A vertex in whole units.
     fn exact(&self, vertex: usize, unit: i32) -> [Int; 3] {
         self.at(vertex).to_array().map(|value| in_units(f64::from(value), unit))
     }
@@ -77,7 +77,7 @@ impl Turn {
         }
     }
 
-    /// A direction of the frame in the shape's own axes; its length means nothing.
+    /// A direction of the frame in the shape's own axes; its length has no meaning.
     fn turn_back(&self, v: &[Int; 3]) -> [Int; 3] {
         match self {
             Self::Weight(_) => v.clone(),
@@ -102,7 +102,7 @@ pub(super) fn in_units(value: f64, unit: i32) -> Int {
     }
 }
 
-/// The greatest power of two that divides every value; of nothing but zeros, 1.
+/// The greatest power of two that divides every value; 1 if all are zero.
 pub(super) fn common_unit(values: impl Iterator<Item = f64>) -> i32 {
     let exponents = values.map(super::int::parts).filter(|parts| parts.0 != 0).map(|parts| parts.1);
     exponents.min().unwrap_or(0)
@@ -112,11 +112,11 @@ impl Question<'_> {
     /// Whether the shapes share a point.
     pub(super) fn answer(&self, start: &[Corner]) -> bool {
         match (&self.a, &self.b) {
-            // Two half-spaces meet, unless they look exactly away from each other across a gap.
+            // Two half-spaces overlap, unless they face exactly away from each other across a gap.
             (Body::HalfSpace(normal), Body::HalfSpace(_)) => {
                 !(self.are_opposed() && dot3(normal, &self.offset).sign() == Ordering::Greater)
             }
-            // What B has least along A's normal, seen from A's plane; and the other way round.
+            // The least projection of B along A's normal, measured from A's plane; and the other way round.
             (Body::HalfSpace(normal), Body::Core(..)) => !self.is_beyond(&self.least(normal).1, normal),
             (Body::Core(..), Body::HalfSpace(normal)) => {
                 let back = normal.clone().map(|c| -c);
@@ -126,7 +126,7 @@ impl Question<'_> {
         }
     }
 
-    /// Whether both are half-spaces, and look exactly away from each other.
+    /// Whether both are half-spaces that face exactly away from each other.
     pub(super) fn are_opposed(&self) -> bool {
         let (Body::HalfSpace(normal_a), Body::HalfSpace(normal_b)) = (&self.a, &self.b) else { return false };
         cross3(normal_a, normal_b).iter().all(Int::is_zero)
@@ -148,7 +148,7 @@ impl Question<'_> {
                 return true;
             }
             let (corner, least) = self.least(&towards);
-            // Once v is the nearest point of all, no corner is lower than v's own: then one of these two holds.
+            // Once v is the nearest point of all, no corner projects below v's own: then one of these two holds.
             if self.is_beyond(&least, &towards) || least >= reach {
                 return false;
             }
@@ -156,7 +156,7 @@ impl Question<'_> {
         }
     }
 
-    /// Whether a projection on a direction, of any length, is greater than both radii.
+    /// Whether a projection on a direction of any length exceeds the sum of both radii.
     fn is_beyond(&self, projection: &Int, along: &[Int; 3]) -> bool {
         if projection.sign() != Ordering::Greater {
             return false;
@@ -186,11 +186,11 @@ impl Question<'_> {
         ([in_a, in_b], least)
     }
 
-    /// The vertex furthest along a direction and its projection there, the body's position left out.
+    /// The vertex furthest along a direction and its projection there, without the body's position.
     ///
-    /// f64 names those that may be it. Each local direction's component is off by at most 2^-52 of itself and a
-    /// projection takes five roundings more, so that it is off by less than 8 units of 2^-53 of the sum of its terms'
-    /// sizes; what lies within twice that of the furthest is compared exactly.
+    /// f64 selects the candidates. Each component of the local direction is off by at most 2^-52 of itself, and a
+    /// projection takes five roundings more, so it is off by less than 8 units of 2^-53 of the sum of its terms'
+    /// magnitudes; vertices within twice that of the furthest are compared exactly.
     fn furthest(&self, body: &Body, along: &[Int; 3]) -> (usize, Int) {
         let Body::Core(vertices, turn) = body else { return (0, Int::ZERO) };
         let local = turn.turn_back(along);
@@ -205,7 +205,7 @@ impl Question<'_> {
             let (reach, size) = project(vertex);
             (furthest, doubt) = (furthest.max(reach), doubt.max(size));
         }
-        // Terms and components that underflowed lost less than this.
+        // Underflow of terms and components loses less than this.
         let doubt = 16.0 * f64::EPSILON * doubt + 1e-290;
         let candidates = (0..vertices.len()).filter(|&vertex| project(vertex).0 >= furthest - doubt);
         let best = candidates

@@ -3,14 +3,14 @@
 //! ```text
 //! a quaternion q means the rotation M(q)/|q|^2, whatever its length; M(p q) = M(p) M(q), |p q| = |p||q|
 //! ```
-//! Written once over [`Number`]. The usual quaternion has components of some 30 bits, and then everything here, up to
-//! the matrix of a relative rotation, fits the machine's own 128 bits: 0.4 us in place of 1.8 of a query.
+//! Generic over [`Number`]. The usual quaternion has components of some 30 bits, and then everything here, up to the
+//! matrix of a relative rotation, fits the machine's own 128 bits: 0.4 us of a query in place of 1.8.
 
 use super::int::Int;
 use super::question::{common_unit, in_units};
 use asunder_geometry::Pose3;
 
-/// What quaternions may be made of.
+/// The components of a quaternion.
 pub(super) trait Number: Sized + Clone {
     const ONE: Self;
     const ZERO: Self;
@@ -28,7 +28,7 @@ pub(super) type Quaternion<N> = [N; 4];
 pub(super) struct Turns {
     /// Whether B is turned exactly as A is; the matrix is then 1.
     pub(super) are_alike: bool,
-    /// |r|^2 times B's rotation as seen from A, in rows.
+    /// |r|^2 times B's rotation relative to A, in rows.
     pub(super) relative: [[Int; 3]; 3],
     /// |Q_a|^2 times the rotation from the world to A, in rows.
     pub(super) to_a: [[Int; 3]; 3],
@@ -61,7 +61,7 @@ impl Turns {
     }
 }
 
-/// A pose's quaternion as integers; a common factor means nothing.
+/// A pose's quaternion as integers; a common factor has no meaning.
 pub(super) fn quaternion(pose: &Pose3) -> Quaternion<Int> {
     let components = pose.rotation().to_array().map(f64::from);
     let unit = common_unit(components.into_iter());
@@ -82,8 +82,8 @@ fn short_quaternion(pose: &Pose3) -> Option<Quaternion<i128>> {
     })
 }
 
-/// Whether no number on the way to the matrix of the relative rotation has more than 127 bits: none exceeds twice
-/// |a|^2 |b|^2.
+/// Whether no number up to the matrix of the relative rotation needs more than 127 bits: none exceeds twice |a|^2
+/// |b|^2.
 fn fits(a: &Quaternion<i128>, b: &Quaternion<i128>) -> bool {
     let bits = |q: &Quaternion<i128>| 128 - squared(q).leading_zeros();
     bits(a) + bits(b) <= 125

@@ -1,21 +1,21 @@
-//! Contacts by their axes: whether one of many has to do with a meeting, without a look at each of them for each
-//! meeting.
+//! Finds whether any of many contacts has to do with a meeting, without a test of each contact for each meeting: a tree
+//! of contacts, split by axis or separation.
 //!
 //! ```text
-//! build    the middle one comes first, by the coordinate of the axes or the separation, whichever spreads furthest;
+//! build    the median comes first, by the coordinate (of the axes, or the separation) that spreads furthest;
 //!          then all that are below, then all that are above, each laid out likewise
-//! ask      a contact itself; then, by how far at most the axes of those laid out behind it are from its own, and which
-//!          separations they have, whether one of them may do: where none may, all are passed over
+//! query    test a contact itself; then, from how far at most the axes laid out behind it are from its own, and the
+//!          range of their separations, whether one of them may qualify: where none may, all are skipped
 //! ```
-//! What a body reaches along an axis changes by no more than the axis does, times the furthest that a point of it is
+//! How far a body reaches along an axis changes by no more than the axis does, times the distance of its furthest point
 //! from the origin: so what one axis shows is a bound for all that are near it.
 //!
-//! So a part that has nothing to do with what is touched takes the logarithm of the contacts, where few axes part the
-//! two bodies, and some hundred looks of thousands, where each contact has an axis of its own. What is found last is
-//! tried first: the next part is beside this one.
+//! So a part that has nothing to do with what is touched costs the logarithm of the contacts, where few axes separate
+//! the two bodies, and some hundred tests of thousands, where each contact has an axis of its own. What was found last
+//! is tried first: the next part is beside this one.
 //!
 //! What two slabs of 64 x 64 cubes that lie on each other meet next, or two rows of 4,096 squares; milliseconds with a
-//! look at each contact, and laid out (Intel Xeon, 2.8 GHz, 2026-11-27, a busy machine; processor time):
+//! test of each contact, and with the tree (Intel Xeon, 2.8 GHz, 2026-11-27, a busy machine; processor time):
 //!
 //! | | 64 x 64, squarely | 64 x 64, each tilted | 4,096, each tilted |
 //! |---|---|---|---|
@@ -31,15 +31,15 @@ use crate::touch::{Touch2, Touch3};
 use asunder_geometry::glam::{DVec2, DVec3};
 use core::cell::{Cell, OnceCell};
 
-/// So many contacts at most are asked one by one, always.
+/// Up to this many contacts are always tested one by one.
 const FEW: usize = 8;
 
-/// So many questions at most are asked of contacts one by one, however many there are: what is asked less often costs
-/// more to lay out.
+/// This many queries test contacts one by one, however many there are: for fewer, the tree costs more to lay out than
+/// it saves.
 const SELDOM: u32 = 8;
 
 thread_local! {
-    /// Lists of contacts that are laid out.
+    /// Lists of contacts that are laid out as trees.
     static BUNDLES: Cell<Vec<Vec<Bundle>>> = const { Cell::new(Vec::new()) };
 }
 
@@ -69,9 +69,9 @@ impl Axis for DVec3 {
     }
 }
 
-/// What has a unit axis from A to B, and a separation along it in metres.
+/// Anything with a unit axis from A to B, and a separation along it in metres.
 pub(crate) trait AlongAxis {
-    /// Nothing where they are none.
+    /// Axis and separation; `None` if they are not valid.
     fn along(&self) -> Option<([f64; 3], f64)>;
 }
 
@@ -99,39 +99,39 @@ impl AlongAxis for Touch3 {
     }
 }
 
-/// A contact, and what is known of those that are laid out behind it and passed over with it.
+/// A contact, and bounds on those that are laid out behind it, its subtree, and skipped with it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bundle {
     pub(crate) axis: [f64; 3],
     pub(crate) separation: f64,
-    /// How far the others' axes are from its own at most.
+    /// The furthest that another's axis is from its own.
     pub(crate) spread: f64,
     /// The least and the greatest separation of all.
     pub(crate) separations: [f64; 2],
-    /// How many they are, with the contact itself.
+    /// How many they are, the contact itself included.
     count: usize,
 }
 
-/// Whether a bundle holds what is looked for.
+/// Whether a bundle holds a contact that is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Holds {
-    /// Its own contact is that.
+    /// Its own contact is one.
     Yes,
-    /// Certainly not.
+    /// Certainly none.
     No,
-    /// Not its own contact.
+    /// Its own contact is none; one behind it may be.
     Perhaps,
 }
 
-/// Contacts that are asked about again and again.
+/// Contacts that are queried again and again.
 pub(crate) struct Contacts<'c, T> {
     all: &'c [T],
-    /// How far apart points of the bodies are, in metres: what the unit of an axis is to that of a separation.
+    /// A size of the bodies in metres: it makes differences of axes comparable to those of separations.
     size: f64,
     asked: Cell<u32>,
-    /// What was found last, which is often what is looked for next.
+    /// The contact found last, which is often the one looked for next.
     found: Cell<Option<Bundle>>,
-    /// Laid out, once that is worth it, in memory that the thread keeps.
+    /// The tree, built once that is worth it, in memory that the thread keeps.
     laid_out: OnceCell<Vec<Bundle>>,
 }
 
@@ -144,15 +144,15 @@ impl<T> Drop for Contacts<'_, T> {
 }
 
 impl<'c, T: AlongAxis> Contacts<'c, T> {
-    /// Of bodies of a size in metres.
+    /// For bodies of a size in metres.
     pub(crate) fn new(all: &'c [T], size: f32) -> Self {
-        // Where both reach without end, axes alone decide.
+        // Where both are endless, axes alone decide.
         let size = f64::from(size.min(f32::MAX));
         Self { all, size, asked: Cell::new(0), found: Cell::new(None), laid_out: OnceCell::new() }
     }
 
-    /// Whether any contact is what is looked for. Which of them is found first is nobody's business: it depends on what
-    /// was asked before.
+    /// Whether any contact is one that is looked for. Which of them is found first is unspecified: it depends on
+    /// earlier queries.
     pub(crate) fn any(&self, holds: impl Fn(&Bundle) -> Holds) -> bool {
         let holds = |bundle: &Bundle| {
             count_step();
@@ -170,7 +170,7 @@ impl<'c, T: AlongAxis> Contacts<'c, T> {
         found.is_some()
     }
 
-    /// The first among those that are laid out.
+    /// The first match in the tree's order.
     fn find(&self, holds: impl Fn(&Bundle) -> Holds) -> Option<Bundle> {
         let mut left = self.laid_out.get_or_init(|| self.lay_out()).as_slice();
         while let Some(first) = left.first() {
@@ -196,7 +196,7 @@ fn bundles<T: AlongAxis>(all: &[T]) -> impl Iterator<Item = Bundle> {
     all.iter().filter_map(AlongAxis::along).map(|(axis, separation)| Bundle::of(axis, separation))
 }
 
-/// Lays contacts out, in place. As deep as the logarithm of their number.
+/// Lays contacts out as a tree, in place. Recurses as deep as the logarithm of their number.
 fn lay_out(bundles: &mut [Bundle], size: f64) {
     let (count, middle) = (bundles.len(), bundles.len() / 2);
     if count < 2 {
@@ -216,9 +216,9 @@ fn lay_out(bundles: &mut [Bundle], size: f64) {
     let spread = bundles.iter().map(away).fold(0.0, f64::max).sqrt() * (1.0 + 8.0 * f64::EPSILON);
     let separations = range(bundles, |bundle| bundle.separation);
     bundles[0] = Bundle { spread, separations, count, ..bundles[0] };
-    // Equal ones are as good as one.
+    // Equal contacts need no subtrees: one stands for all.
     if !bundles[0].is_one() {
-        // What was first is below the middle, or as high.
+        // The swap put the first contact at `middle`: it is no higher than the median.
         let (below, above) = bundles[1..].split_at_mut(middle);
         lay_out(below, size);
         lay_out(above, size);
@@ -232,7 +232,7 @@ fn range(bundles: &[Bundle], of: impl Fn(&Bundle) -> f64) -> [f64; 2] {
 }
 
 impl Bundle {
-    /// A contact, and none behind it.
+    /// A contact with none behind it.
     fn of(axis: [f64; 3], separation: f64) -> Self {
         Self { axis, separation, spread: 0.0, separations: [separation; 2], count: 1 }
     }
@@ -246,7 +246,7 @@ impl Bundle {
         self.spread == 0.0 && self.separations[0] == self.separations[1]
     }
 
-    /// Of the axis, or the separation.
+    /// A coordinate of the axis (0 to 2), or the separation.
     fn coordinate(&self, i: usize) -> f64 {
         self.axis.get(i).copied().unwrap_or(self.separation)
     }

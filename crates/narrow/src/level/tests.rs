@@ -1,4 +1,4 @@
-//! Contacts that are laid out, against a look at each of them.
+//! Contacts laid out as a tree, against a test of each of them.
 
 use super::{Contacts, Lies, Passing, Reach};
 use crate::counted::steps_of;
@@ -6,7 +6,7 @@ use crate::numbers::Numbers;
 use crate::touch::Touch3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
-/// Two parts, as corners of B less corners of A: at the start, and at three times after it.
+/// Two parts, as corners of B less corners of A: at the start, and at three times after that.
 struct Parts {
     moments: [[DVec3; 5]; 4],
     thickness: f64,
@@ -16,7 +16,7 @@ struct Parts {
 impl Parts {
     fn new(numbers: &mut Numbers) -> Self {
         let size = [0.05, 1.0][numbers.below(2) as usize];
-        // Beside what is touched below, and going into it and along it.
+        // Beside what is touched below, and moving into it and along it.
         let (beside, sunk) =
             (numbers.vector() * DVec3::new(3.0, 0.02, 3.0), [0.1, 1.0][numbers.below(2) as usize]);
         let way = numbers.vector() * DVec3::new(2.0, sunk, 2.0);
@@ -54,7 +54,7 @@ impl Parts {
     }
 }
 
-/// So many contacts with what is more or less below: of few axes or of many, of few depths or of many.
+/// `count` contacts with what is more or less below: of few axes or of many, of few depths or of many.
 fn contacts(numbers: &mut Numbers, count: usize) -> Vec<Touch3> {
     let (tilt, depth) =
         ([0.0, 1e-7, 0.05, 1.0][numbers.below(4) as usize], [0.0, 0.3][numbers.below(2) as usize]);
@@ -78,7 +78,7 @@ fn contacts_laid_out_say_what_they_say_one_by_one() {
             let parts = Parts::new(&mut numbers);
             let tilted = numbers.vector() * [0.1, 1.0][question % 2] + DVec3::X;
             let normal = tilted.try_normalize().unwrap_or(DVec3::X);
-            // The first questions are asked of each contact.
+            // The first queries test each contact.
             let (each, each_beside) = (Contacts::new(&all, 2.0), Contacts::new(&others, 2.0));
             let (few, fewer) = if round % 3 == 0 { (None, None) } else { (Some(&touched), Some(&each)) };
             let found = parts.lies(normal, few, &beside);
@@ -89,7 +89,7 @@ fn contacts_laid_out_say_what_they_say_one_by_one() {
     assert!(told.iter().all(|&count| count > 500), "{told:?}");
 }
 
-/// Of contacts that have nothing to do with a meeting, few are looked at: none but the first, where all are alike.
+/// Among contacts that have nothing to do with a meeting, few are tested: only the first, where all are alike.
 #[test]
 fn what_has_nothing_to_do_with_a_meeting_is_passed_over() {
     let mut numbers = Numbers::new(5710);

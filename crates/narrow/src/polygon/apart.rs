@@ -1,4 +1,4 @@
-//! Closest points, where nothing else is asked of a pair.
+//! Closest points, where nothing else is asked about a pair.
 
 use super::convex::Convex;
 use super::distance::{Reached, Until, Witness, distance};
@@ -7,22 +7,22 @@ use crate::precision::{at_least, signed};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
-/// A gap between two shapes, for certain.
+/// A gap between two shapes that is certain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Apart {
     /// In metres; never zero.
     pub(crate) separation: f32,
     pub(crate) error: f32,
-    /// Unit axis from A to B, which shows it.
+    /// Unit axis from A to B along which the gap is.
     pub(crate) normal: DVec2,
     /// Closest points of the shapes, in the frame of the pair.
     pub(crate) points: [DVec2; 2],
 }
 
 impl Convex<'_> {
-    /// What [`Convex::probe`] would say of the closest points, by the shortest way, without axes and edges; or that
-    /// they are further apart than a limit, by at least so many metres. Nothing where it takes a closer look: of what
-    /// overlaps or all but touches, of half-planes, and of points among themselves.
+    /// The closest points that [`Convex::probe`] would give, in the shortest way, without axes and edges; or, for
+    /// shapes further apart than a limit, a lower bound on their distance. `None` where it takes the general way: for
+    /// shapes that overlap or almost touch, for half-planes, and for two points.
     pub(crate) fn apart(&self, limit: f64) -> Option<Result<Apart, f32>> {
         if self.has_line() {
             return None;

@@ -1,14 +1,14 @@
-//! Two convex shapes: which kernel they go to, and what its answer means with their radii.
+//! Two convex shapes: which kernel handles them, and what its answer means with their radii.
 //!
 //! ```text
 //! separation of two rounded shapes = separation of their cores - both radii, along the same axis
-//! half-plane and anything:          its line's normal is the only axis         (half_plane)
+//! half-plane and any other:         its line's normal is the only axis         (half_plane)
 //! two points:                       the line through them
 //! everything else:                  edge normals                               (sat)
 //!                                   in a gap, the closest points as well       (distance)
 //! ```
-//! Whether they overlap is settled in three tiers (`tiers`); the number then takes the decision's sign: where it says
-//! otherwise, it is rounding.
+//! Whether they overlap is decided in three tiers (`tiers`). The number then takes that decision's sign: where it
+//! disagrees, that is rounding.
 //!
 //! The rule in the first line holds in a gap and in overlap alike: adding a ball of radius r moves every supporting
 //! line out by r, so that the separation along every axis shrinks by the same amount, and the best axis stays the
@@ -40,18 +40,18 @@ pub(crate) struct Convex<'a> {
     pub(super) measure: Measure,
 }
 
-/// What a kernel in closed form says of two shapes.
+/// The answer of a kernel in closed form.
 pub(super) struct Told {
     pub(super) separation: f64,
     /// Unit axis from A to B.
     pub(super) normal: DVec2,
-    /// Closest points on the surfaces; they mean nothing in overlap.
+    /// Closest points on the surfaces; meaningless in overlap.
     closest: [DVec2; 2],
 }
 
 impl<'a> Convex<'a> {
-    /// Two shapes, how they are turned, and B's position less A's. `summed` is how long the vectors were that the
-    /// position is a sum of, in metres, where it is one of several.
+    /// Two shapes, their rotations, and B's position less A's. For parts, whose offset is a sum of several vectors,
+    /// `summed` is the sum of those vectors' lengths, in metres.
     #[inline]
     pub(crate) fn new(sites: [Site2<'a>; 2], turns: [Turn; 2], offset: DVec2, summed: Option<f64>) -> Self {
         let (shapes, [turn_a, turn_b]) = (sites.map(|site| site.shape), turns);
@@ -88,7 +88,7 @@ impl<'a> Convex<'a> {
         })
     }
 
-    /// Of shapes of which at least one is a half-plane.
+    /// For shapes of which at least one is a half-plane.
     fn probe_lines(&self, asked: &Asked) -> Probe {
         match self.lines() {
             [Some(a), Some(b)] => self.told(&self.told_half_planes(a, b), asked, |told| {
@@ -129,7 +129,7 @@ impl<'a> Convex<'a> {
         Told { separation, normal, closest }
     }
 
-    /// What a kernel without axes to try has told, within the limit.
+    /// The answer that follows from a closed form, within the limit.
     fn told(&self, told: &Told, asked: &Asked, touch: impl FnOnce(&Told) -> Option<Touch>) -> Probe {
         let precision = self.measure.precision;
         let separation = told.separation;
@@ -171,8 +171,8 @@ impl<'a> Convex<'a> {
         }
     }
 
-    /// Shapes with a gap between their cores that one direction shows for certain: the nearest points first, and
-    /// then the axes that matter beside them.
+    /// Shapes with a gap between their cores that one direction proves: finds the nearest points first, and then the
+    /// axes that matter beside theirs.
     fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
         let looked = self.look_closer(a, b, Some(shown));
         let (normal, least) = match &looked.1 {
@@ -190,7 +190,7 @@ impl<'a> Convex<'a> {
         self.with_outlines(|a, b| over_edge(if of_b { [b, a] } else { [a, b] }, edge, within, sizes, of_b))
     }
 
-    /// By how much one contact point must be deeper than another to matter, in metres.
+    /// By how much one contact point must be deeper than another to be preferred, in metres.
     pub(crate) fn preference(&self) -> f64 {
         self.measure.preference
     }

@@ -9,61 +9,60 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
-/// Steps after which the iteration gives up narrowing. A large polygon needs about as many as its vertex count has
-/// bits.
+/// Steps after which the iteration gives up. A large polygon needs about as many as its vertex count has bits.
 const MAX_STEPS: usize = 64;
 
-/// Share of the size above which the axis from one witness point to the other is not rounding.
+/// Share of the size above which the axis between the witness points is more than rounding.
 const TELLING: f64 = 1e-6;
 
-/// How far the iteration came.
+/// How far the iteration got.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
 pub(crate) enum Reached {
-    /// Two bounds on a distance, however far apart.
+    /// Two bounds on the distance, however far apart.
     Between(Witness),
-    /// The difference of the shapes is too close to the origin to tell, or holds it.
+    /// The Minkowski difference contains the origin, or is too close to it to decide.
     Origin(Close),
 }
 
-/// When the iteration may stop, besides when its bounds meet.
+/// When the iteration may stop, apart from when its bounds meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Until<'a> {
     /// The lower bound has come above this, in metres.
     pub(crate) beyond: f64,
     /// The upper bound has come below this, in metres.
     pub(crate) within: f64,
-    /// That of the pair.
+    /// The pair's precision.
     pub(crate) precision: &'a Precision,
 }
 
 impl<'a> Until<'a> {
-    /// Only when they meet.
+    /// Stops only when the bounds meet.
     pub(crate) fn met(precision: &'a Precision) -> Self {
         Self { beyond: f64::INFINITY, within: f64::NEG_INFINITY, precision }
     }
 }
 
-/// Corners of the difference that are at the origin as far as f64 can tell.
+/// Corners of the difference that are at the origin, or around it, as far as f64 can tell.
 #[derive(Clone, Debug)]
 pub(crate) struct Close {
     /// Vertices of A and of B, in pairs.
     pub(crate) corners: ArrayVec<[usize; 2], 3>,
-    /// Whether they hold the origin for certain: the shapes share a point.
+    /// Whether they certainly contain the origin: the shapes share a point.
     pub(crate) is_proved: bool,
-    /// No further apart than this, in metres: as far as the last points were.
+    /// An upper bound on the distance, in metres: that of the last points.
     pub(crate) within: f64,
 }
 
-/// Witness points and the bounds they leave.
+/// Witness points, and the bounds on the distance that they prove.
 #[derive(Clone, Debug)]
 pub(crate) struct Witness {
     /// Distance of the witness points: an upper bound.
     pub(crate) distance: f64,
-    /// The best separation by projection that was met: a lower bound.
+    /// The best separation by projection that was found: a lower bound.
     pub(crate) at_least: f64,
     /// The unit axis of that projection, from A to B.
     pub(crate) normal: DVec2,
-    /// The unit axis from one witness point to the other; that of the projection where they are too close to tell.
+    /// The unit axis from one witness point to the other; the projection's axis if they are too close for one.
     pub(crate) across: DVec2,
     pub(crate) point_a: DVec2,
     pub(crate) point_b: DVec2,
@@ -72,7 +71,7 @@ pub(crate) struct Witness {
 }
 
 impl Witness {
-    /// Whether the points are so close for a pair of this size that the axis from one to the other is rounding.
+    /// Whether, for a pair of this size, the points are so close that the axis between them is mostly rounding.
     pub(crate) fn is_close(&self, size: f64) -> bool {
         self.distance <= TELLING * size
     }
@@ -81,32 +80,32 @@ impl Witness {
 /// Vertices of A and of B, and the place of their difference.
 type Vertex = ([usize; 2], DVec2);
 
-/// Corners of the difference A - B that carry its nearest point to the origin so far.
+/// Corners of the difference A - B that carry its point nearest to the origin so far.
 #[derive(Clone, Copy)]
 struct Simplex {
     vertices: [[usize; 2]; 3],
     places: [DVec2; 3],
     count: usize,
-    /// The second corner's share of the nearest point.
+    /// The second corner's weight in the nearest point.
     share: f64,
     nearest: DVec2,
 }
 
-/// What a corner more made of a simplex.
+/// What one more corner changed.
 enum Grown {
-    /// Its nearest point came nearer.
+    /// The nearest point has come nearer.
     Nearer,
     /// Nothing new.
     Not,
-    /// The three corners hold the origin: they are all still here.
+    /// The three corners contain the origin: all are kept.
     Around,
 }
 
-/// Narrows the distance down.
+/// Narrows the bounds on the distance until they meet, or `until` is satisfied.
 pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until) -> Reached {
     let precision = until.precision;
     let size = precision.size;
-    // Steps grow ever shorter: the last corner, or one beside it, most often is the next.
+    // Steps get ever shorter: the next corner is most often the last one or beside it.
     let corner = |direction: DVec2, near: Option<[usize; 2]>| {
         let in_a = a.furthest_near(direction, near.map(|near| near[0]));
         let in_b = b.furthest_near(-direction, near.map(|near| near[1]));
@@ -141,7 +140,7 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
                 Grown::Around => {
                     let (corners, is_proved) =
                         (simplex.corners(), is_around_origin(simplex.places, precision));
-                    // Its border is as near as any point may be that it really holds.
+                    // The distance of its border bounds the gap, if it does not really contain the origin.
                     let within = length.min(simplex.border());
                     return Reached::Origin(Close { corners, is_proved, within });
                 }
@@ -159,10 +158,10 @@ pub(crate) fn distance(a: &Outline, b: &Outline, towards_b: DVec2, until: &Until
     Reached::Between(witness)
 }
 
-/// Whether three corners hold the origin for certain: the areas that it spans with each side have one sign.
+/// Whether three corners certainly contain the origin: the areas that it spans with each side have one sign.
 ///
-/// A corner is off by at most `projection` in each coordinate, so that an area of corners no longer than m is off by
-/// less than 4 m of that, and by less than 4 roundings of m^2.
+/// A corner is off by at most `projection` in each coordinate. So the area of corners no longer than m is off by less
+/// than 4 m of that, and by less than 4 roundings of m^2.
 fn is_around_origin(places @ [a, b, c]: [DVec2; 3], precision: &Precision) -> bool {
     let longest = places.iter().map(|place| place.abs().element_sum()).fold(0.0, f64::max);
     let doubt = longest * (4.0 * precision.projection() + 2.0 * f64::EPSILON * longest);
@@ -170,8 +169,8 @@ fn is_around_origin(places @ [a, b, c]: [DVec2; 3], precision: &Precision) -> bo
     areas.iter().all(|&area| area > doubt) || areas.iter().all(|&area| area < -doubt)
 }
 
-/// How much of the way from one corner to another leads to its point nearest to the origin, held to the way, and that
-/// point. Of corners in one place, the first.
+/// The point nearest to the origin on the segment between two corners: how far along the segment, from 0 to 1, and the
+/// point. For corners in one place, the first.
 #[inline(always)]
 fn nearest_between(from: DVec2, to: DVec2) -> (f64, DVec2) {
     let along = to - from;
@@ -197,10 +196,9 @@ impl Simplex {
         (0..3).any(|i| self.vertices[i] == vertices && i < self.count)
     }
 
-    /// Takes one corner more and leaves out those that then do not carry the nearest point, if that is nearer than
-    /// `length`.
+    /// Adds a corner and drops those that no longer carry the nearest point, if that is nearer than `length`.
     ///
-    /// That is on a side which ends in the new corner, or the step brought nothing.
+    /// The nearest point is on a side that ends in the new corner, or the step brought nothing.
     #[inline(always)]
     fn grow(&mut self, (vertices, place): Vertex, length: f64) -> Grown {
         let [a, b, _] = self.places;
@@ -250,8 +248,8 @@ impl Simplex {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// The point of A or B that the shares make. A weighted difference from the first corner, and not weighted corners:
-    /// what the weights' sum lost shrinks with it.
+    /// The point of A or B that the weights make: the first corner plus a weighted difference, not a sum of weighted
+    /// corners, so that the rounding of the weights' sum shrinks with the difference.
     #[inline(always)]
     fn weighted(&self, outline: &Outline, which: usize) -> DVec2 {
         let first = outline.point(self.vertices[0][which]);

@@ -4,34 +4,34 @@
 //! place the vertices and turn the normals of both shapes, each coordinate in an array of its own
 //! for each edge of one shape, side by side:
 //!   separation = min over the other's vertices of n.x - n.(the edge's own first vertex)
-//! the best edge is then normalised and believed after projecting every vertex
+//! normalise the best edge's normal, and project every vertex on it: only this result is trusted
 //! ```
-//! That an edge's own vertex is furthest along its own normal is no guess: polygons are convex by exact predicates.
+//! An edge's own vertex is certainly furthest along its normal: polygons are convex by exact predicates.
 //!
-//! What is lost to rounding: the normal is stored within 4 u of the true one (2 in direction, 2 in length), turned,
-//! 2.9 u, and multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points.
-//! Placing a vertex takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than
-//! 16 u of the reach: within two projections' rounding of the truth, in both directions, and so are parts', whose
-//! matrices take 3 u more.
+//! What is lost to rounding: the normal is stored within 4 u of the true one (2 in direction, 2 in length), turned, 2.9
+//! u, and multiplied by a scale, 2 u: less than 9 u of what is projected, which is a difference of points. Placing a
+//! vertex takes 2.9 u, adding the offset 1 u, each product 2 u, the difference 1 u. All in all less than 16 u of the
+//! reach: within two projections' rounding of the truth, in both directions. The same holds for parts, whose matrices
+//! take 3 u more.
 //!
-//! 1. Coordinates stand in arrays of one length, eight or sixteen, and what is left is filled with the last: no loop
-//!    has a count.
-//! 2. The greatest separation is found by halves; which edge shows it, afterwards.
-//! 3. The best edge's normal is made a unit vector by one step of Newton's, without a root.
+//! 1. Coordinates stand in arrays of one length, eight or sixteen, padded with the last vertex: no loop has a variable
+//!    count.
+//! 2. The greatest separation is found by a tree of maxima; which edge shows it, afterwards.
+//! 3. The best edge's normal is normalised by one step of Newton's, without a root.
 //!
 //! Together, AMD EPYC, Zen 4, 2026-11-21: `poly8/mixed/separation` 160 ns to 132, `poly8/mixed/manifold` 189 to 164.
 //! Not done: all of it compiled for AVX2, four lanes in place of two: boolean 48 ns to 40, separation 133 to 118,
 //! manifold 166 to 148, less what a call through run-time detection costs.
 //!
-//! The loops are the scalar definition too; a test holds them to the bits of one edge after the other.
+//! The loops are the scalar definition as well; a test checks them bit for bit against one edge after the other.
 
 use super::outline::{Turn, renormalized};
 use super::placed::Placed;
 use super::sat::{Axes, Axis, AxisOf, Outcome, Sides, Wanted, doubt, hint_of};
 use asunder_geometry::glam::{DVec2, Vec2};
 
-/// A core's vertices in the frame of the pair, and its edges' outward normals. What is left of the arrays repeats the
-/// last one, so that loops need no count; a point's normals are zero.
+/// A core's vertices in the frame of the pair, and its edges' outward normals. The rest of the arrays repeats the last
+/// one, so that loops need no count; a point's normals are zero.
 pub(super) struct Few<const N: usize> {
     x: [f64; N],
     y: [f64; N],
@@ -64,7 +64,7 @@ impl<const N: usize> Few<N> {
         few
     }
 
-    /// The separation along each edge's normal; only those of edges mean anything.
+    /// The separation along each edge's normal; entries beyond the last edge mean nothing.
     #[inline]
     fn separations(&self, other: &Self) -> [f64; N] {
         let mut least = [f64::INFINITY; N];
@@ -81,7 +81,7 @@ impl<const N: usize> Few<N> {
         least
     }
 
-    /// The best edge by its separation before any is normalised again, and which it is.
+    /// The greatest separation, before normals are normalised again, and which edge shows it.
     #[inline]
     pub(super) fn best(&self, other: &Self) -> (f64, usize) {
         self.greatest(&self.separations(other))
@@ -103,7 +103,7 @@ impl<const N: usize> Few<N> {
         renormalized(DVec2::new(self.normal_x[edge], self.normal_y[edge]))
     }
 
-    /// The greatest separation along an edge's normal, and the first edge that shows as much; -inf of a point.
+    /// The greatest separation along an edge's normal, and the first edge that shows it; -inf for a point.
     #[inline]
     fn greatest(&self, separations: &[f64; N]) -> (f64, usize) {
         let top = top(separations);
@@ -112,7 +112,7 @@ impl<const N: usize> Few<N> {
     }
 }
 
-/// The greatest of all, halving: lanes are compared side by side.
+/// The greatest of all, by halves: lanes are compared side by side.
 #[inline]
 fn top<const N: usize>(values: &[f64; N]) -> f64 {
     let mut values = *values;
@@ -137,7 +137,7 @@ fn axis<const N: usize>(a: &Few<N>, b: &Few<N>, of: AxisOf) -> Axis {
     Axis { separation: -b.reach(-normal) - a.reach(normal), normal, of }
 }
 
-/// Finds the best axes. `kept` is what the hint names.
+/// Finds the best axes. `kept` is the edge that the hint refers to.
 #[inline]
 pub(super) fn separating_axes<const N: usize>(
     [a, b]: [&Few<N>; 2],
@@ -177,7 +177,7 @@ pub(super) fn separating_axes<const N: usize>(
     Outcome::Within(axes)
 }
 
-/// Which side of touching the shapes are on.
+/// What the axes say of the two shapes.
 #[inline]
 pub(super) fn sides<const N: usize>([a, b]: [&Few<N>; 2], doubt: f64) -> Sides {
     let (in_a, _) = a.best(b);

@@ -1,4 +1,4 @@
-//! A half-plane against a core: two dot products for the nearest vertex, one axis in all.
+//! A half-plane against a core: one support point and its height. There is one axis in all.
 //!
 //! Of all directions only the line's own normal can show a gap or a finite depth, so the separation is exact up to
 //! rounding: the least height of a vertex over the line.
@@ -9,7 +9,7 @@ use crate::feature::{Feature, FeatureId};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
-/// Sine of the angle up to which two lines may be parallel: far more than the roundings of two unit normals.
+/// Sine of the angle up to which two lines count as possibly parallel: far more than the rounding of two unit normals.
 const PARALLEL: f64 = 1e-12;
 
 /// The line of a half-plane, in the frame of the pair.
@@ -39,8 +39,8 @@ impl Line {
         (vertex, self.height(core.point(vertex)))
     }
 
-    /// Two half-planes: the distance of lines that look exactly away from each other; else they overlap without end.
-    /// Whether they do is asked only of those that may.
+    /// Two half-planes: the distance of their lines if they face exactly away from each other; else they overlap
+    /// without end. The exact test is made only where f64 leaves it open.
     pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
         let may_be =
             self.normal.perp_dot(other.normal).abs() <= PARALLEL && self.normal.dot(other.normal) < 0.0;
@@ -53,8 +53,8 @@ impl Line {
         [self, other].map(|line| middle - line.normal * line.height(middle))
     }
 
-    /// The lowest vertex and the other end of the edge there that looks most at the line, if that is no more than
-    /// `margin` above the line. Vertices that are no higher than the lowest, up to `preference`, are as deep as any.
+    /// The lowest vertex, and the other end of the edge there that faces the line most, if that is no more than
+    /// `margin` above the line. Vertices up to `preference` higher than the lowest count as equally deep.
     pub(crate) fn touch(&self, core: &Outline, margin: f64, preference: f64) -> Touch {
         let (lowest, height) = self.lowest(core);
         let deep = height + preference;
@@ -66,7 +66,7 @@ impl Line {
             if facing(lowest) < facing(before) { (after, lowest) } else { (before, before) };
         let contact = |vertex: usize| {
             let corner = core.point(vertex);
-            // What is higher belongs to a tilted edge, whose surface lies out along its own normal.
+            // A vertex that is higher belongs to a tilted edge, whose surface lies out along the edge's own normal.
             let is_deep = vertex == lowest || self.height(corner) <= deep;
             let outwards = if is_deep { -self.normal } else { core.normal(edge) };
             let point = corner + outwards * core.radius;

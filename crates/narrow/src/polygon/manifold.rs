@@ -6,11 +6,12 @@
 //! the incident edge is, of the two at the other shape's deepest vertex, the one most opposed
 //! clip the incident edge to the reference edge's width
 //! keep the ends within the margin of the reference line
-//! if the deepest point was clipped away, ask the axis that is best of all; then the witness points of the gap
+//! if the deepest point was clipped away: use the best axis instead; failing that, the witness points of the gap
 //! ```
-//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces: what is deepest,
-//! along the normal; the other end of a tilted edge along that edge's own normal, since the shape's surface beyond it
-//! looks that way; over ground, where the reference edge may cut off what is deepest, the surface over the cut.
+//! All of that is done with the shapes' cores, and the points are then moved out to the surfaces. What is deepest moves
+//! along the normal. The other end of a tilted edge moves along that edge's own normal, since the surface beyond it
+//! faces that way. Over ground, where the reference edge may cut off what is deepest, a point moves to the surface over
+//! the cut.
 
 use super::distance::Witness;
 use super::placed::Placed;
@@ -29,7 +30,7 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// A point where two cores are closest, moved out to the surfaces along the normal, by both radii.
+    /// A point where two cores are closest, moved out along the normal, by both radii, to the surfaces.
     pub(super) fn on_surfaces(self, [a, b]: [f64; 2], normal: DVec2) -> Self {
         Self {
             separation: self.separation - a - b,
@@ -44,7 +45,7 @@ impl Point {
 pub(crate) struct Touch {
     pub(crate) normal: DVec2,
     pub(crate) points: ArrayVec<Point, 2>,
-    /// The edge that it was built on, if it was one: what the next frame tries first, and keeps among equals.
+    /// The edge that it was built on, if any: the next frame tries it first, and prefers it among equals.
     pub(crate) reference: Option<AxisOf>,
 }
 
@@ -56,12 +57,12 @@ impl Touch {
     }
 }
 
-/// The manifold of shapes that overlap, or that a gap of at most `margin` parts; `witness` tells which. `preference` is
-/// how much another axis must beat an edge of A by, and `near` how near a point must be to a vertex of either to be
-/// named after it.
+/// The manifold of shapes that overlap, or have a gap of at most `margin`, of which `witness` holds the nearest points.
+/// `preference` is by how much another axis must beat an edge of A, and `near` how near to a vertex of either a point
+/// must be to be named after it.
 ///
-/// An axis that only nearly is the best may have its deepest point clipped away, because what touches lies just beside
-/// its edge. Then the best axis is asked in its place, and in a gap, the witness points.
+/// An axis that is only nearly the best may have its deepest point clipped away, because the touching feature lies just
+/// beside its edge. Then the best axis is used instead, and in a gap, the witness points.
 #[inline(always)]
 pub(crate) fn touch(
     [a, b]: [&impl Placed; 2],
@@ -74,8 +75,8 @@ pub(crate) fn touch(
     let at_stake = witness.map_or(best.separation, |witness| witness.distance);
     let deep = at_stake + preference;
     let least = deep - a.radius() - b.radius();
-    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, also where that is no
-    // deeper than zero: a body that rests exactly on an edge rests on both of its ends.
+    // Everything as deep as the deepest vertex up to rounding belongs to the manifold, even if that is no deeper than
+    // zero: a body that rests exactly on an edge rests on both of its ends.
     let depths = Depths { deep, within: margin.max(least), is_cut: false, near };
     let on_edge = |axis: &Axis| {
         let points = match axis.of {
@@ -85,7 +86,7 @@ pub(crate) fn touch(
         let is_deep = points.iter().any(|point| point.separation <= least);
         is_deep.then_some(Touch { normal: axis.normal, points, reference: Some(axis.of) })
     };
-    // A reference that changed from frame to frame would change all names.
+    // A reference that changes from frame to frame would change all feature ids.
     let kept = axes.kept.as_ref().filter(|kept| kept.separation >= best.separation - 2.0 * preference);
     if let Some(kept) = kept
         && kept.separation >= at_stake - 2.0 * preference
@@ -115,18 +116,18 @@ pub(crate) fn touch(
 /// Which ends of an edge become points, in metres.
 #[derive(Clone, Copy)]
 struct Depths {
-    /// Ends of the cores no further apart than this are as deep as any.
+    /// Ends of the cores no further apart than this count as deepest.
     deep: f64,
     /// Points of the shapes no further apart than this are wanted.
     within: f64,
-    /// Whether what is deepest may be cut off, beside the reference edge: the axis may be far from the best.
+    /// Whether the reference edge may cut off what is deepest, because its axis may be far from the best.
     is_cut: bool,
     /// How near a point must be to a vertex to be named after it.
     near: f64,
 }
 
-/// The deepest vertex of the shape whose edge the axis is not, and its foot on that edge's line: what is left where an
-/// edge looks past what touches it.
+/// The deepest vertex of the other shape, and its foot on the line of the axis' edge: what is left if the edge and what
+/// touches it lie side by side.
 #[cold]
 fn deepest_point(a: &impl Placed, b: &impl Placed, axis: &Axis) -> Point {
     match axis.of {
@@ -163,7 +164,7 @@ fn carrier(outline: &impl Placed, witness: &Witness, which: usize, towards: DVec
     let other = witness.corners.iter().map(|corner| corner[which]).find(|&vertex| vertex != first);
     match other {
         None => Feature::Vertex(first as u32),
-        // Both edges of a segment have both its ends: the one that looks at the other shape.
+        // Both edges of a segment have both its ends: take the one that faces the other shape.
         Some(_) if outline.is_flat() => Feature::Edge(u32::from(outline.outward(0).dot(towards) < 0.0)),
         Some(other) if outline.after(first) == other => Feature::Edge(first as u32),
         Some(other) => Feature::Edge(other as u32),
@@ -197,10 +198,11 @@ impl Reference {
         self.contact(point - self.normal * radius, features)
     }
 
-    /// The same of a point at which an edge of the core is cut off. `out` leads from the edge to the surface.
+    /// The same for a point at which the reference edge cuts off an edge of the core. `out` leads from that edge to the
+    /// surface.
     ///
-    /// What is deepest of a whole shape is a radius below its core. Below a cut, there is the surface of a tilted edge,
-    /// or of the arc around its deeper end.
+    /// The deepest point of a whole shape is a radius below its core. Below a cut lies the surface of a tilted edge, or
+    /// of the arc around its deeper end.
     #[cold]
     fn over_cut(
         &self,
@@ -215,13 +217,14 @@ impl Reference {
         let below = if aside < self.normal.perp_dot(out).abs() {
             above + (squared - aside * aside).sqrt()
         } else {
-            // So far aside an edge reaches only if it leans by less than a right angle.
+            // An edge reaches this far to the side only if it leans by less than a right angle.
             squared / -self.normal.dot(out)
         };
         self.lowest(point, below, features)
     }
 
-    /// The contact of a point of the other shape's surface with its foot on the line. Features: the reference's first.
+    /// The contact of a point of the other shape's surface with its foot on the line. Features: the reference's come
+    /// first.
     #[inline]
     fn contact(&self, point: DVec2, (of_reference, of_incident): (Feature, Feature)) -> Point {
         let separation = self.normal.dot(point) - self.reach;
@@ -234,9 +237,8 @@ impl Reference {
     }
 }
 
-/// The nearest points of two cores with a gap between them, where they lie on the edge that the best axis is normal
-/// to and along that axis: then they are as far apart as it shows, and no search is needed. `tiny` is how much
-/// further is as near.
+/// The nearest points of two cores with a gap between them, if they lie on the best axis' edge and along that axis:
+/// then they are as far apart as it shows, and no search is needed. Points up to `tiny` further count as nearest.
 pub(super) fn nearest_on_edge([a, b]: [&impl Placed; 2], axis: &Axis, tiny: f64) -> Option<Witness> {
     let witness = match axis.of {
         AxisOf::EdgeA(edge) => on_edge(a, b, (edge, axis.normal), tiny, false),
@@ -248,7 +250,7 @@ pub(super) fn nearest_on_edge([a, b]: [&impl Placed; 2], axis: &Axis, tiny: f64)
     Some(Witness { distance, at_least, normal, across: normal, point_a, point_b, corners: witness.0 })
 }
 
-/// Corners that carry the nearest points, and those, A's first.
+/// Corners that carry the nearest points, and those points, A's first.
 type Carried = (ArrayVec<[usize; 2], 3>, [DVec2; 2]);
 
 fn on_edge(
@@ -269,7 +271,7 @@ fn on_edge(
         if incident.edge_count() == 0 {
             return None;
         }
-        // The edge there may be parallel, and beside the other all the same.
+        // The edge there may be parallel, and reach over the other all the same.
         let second = incident.facing(deepest, normal);
         let vertices = [second, incident.after(second)];
         let ends = [incident.point(vertices[0]), incident.point(vertices[1])];
@@ -289,8 +291,8 @@ fn on_edge(
     Some((corners, if is_b { [point, foot] } else { [foot, point] }))
 }
 
-/// What lies over an edge of `outline`, along this outward normal of it and whatever the best axis is, and no further
-/// than `within` metres from it: points of the incident shape's lowest edge.
+/// Points of the incident shape's lowest edge that lie over an edge of `outline`, along that edge's outward normal
+/// whatever the best axis is, and no further than `within` metres from it.
 pub(crate) fn over_edge(
     [outline, incident]: [&impl Placed; 2],
     (edge, normal): (usize, DVec2),
@@ -335,7 +337,7 @@ fn edge_points(
     let edges = [(edge, outline.after(edge)), (second, incident.after(second))];
     let ends = [incident.point(edges[1].0), incident.point(edges[1].1)];
     let mut points: ArrayVec<Point, 2> = ArrayVec::new();
-    // Which end is there already.
+    // Which end has a point already.
     let mut known = None;
     if let Some([one, other]) = clip(&reference.ends, ends, edges, depths.near) {
         let lowest = |End { at, features, is_cut }: End| {
@@ -346,7 +348,7 @@ fn edge_points(
             }
         };
         let (one, other) = (lowest(one), lowest(other));
-        // How deep the cores are, seen from a contact made along the normal.
+        // A core's depth as seen from a contact made along the normal.
         let is_kept = |contact: &Point| {
             let core = contact.separation + outline.radius() + radius;
             contact.separation <= depths.within && (is_sharp || core <= depths.deep)
@@ -378,7 +380,7 @@ fn edge_points(
     points
 }
 
-/// The contact of an edge with a point, if that is beside it.
+/// The contact of an edge with a vertex, if the vertex is over the edge.
 fn vertex_point(
     reference: &Reference,
     (edge, vertex): (usize, usize),
@@ -392,7 +394,8 @@ fn vertex_point(
     (is_beside && contact.separation <= depths.within).then_some(contact)
 }
 
-/// Adds what is less deep: it belongs to a tilted edge, and lies out along its normal; there the ends are cut again.
+/// Adds an end that is less deep: it belongs to a tilted edge, so its surface is along that edge's normal, and clipped
+/// there.
 fn add_tilted(
     (points, known): (&mut ArrayVec<Point, 2>, Option<usize>),
     reference: &Reference,
@@ -423,16 +426,16 @@ struct End {
     at: DVec2,
     /// The reference's first.
     features: (Feature, Feature),
-    /// Whether the edge goes on there, beyond the reference edge.
+    /// Whether the incident edge goes on beyond the reference edge there.
     is_cut: bool,
 }
 
 type Clipped = Option<[End; 2]>;
 
-/// The ends of the incident edge held to the width of the reference edge; none where they face past each other. `edges`
-/// are the vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other,
-/// the point is named after both, whichever is further in: so that names stay while bodies of equal width tremble on
-/// each other.
+/// The incident edge clipped to the width of the reference edge; `None` where they lie side by side. `edges` are the
+/// vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other, the point
+/// is named after both, whichever is further in: so ids stay the same while bodies of equal width tremble on each
+/// other.
 #[inline]
 fn clip(
     &[from, to]: &[DVec2; 2],
@@ -441,7 +444,7 @@ fn clip(
     near: f64,
 ) -> Clipped {
     let along = to - from;
-    // Places along the reference edge, 0 to 1. The incident edge runs against it, so that `low` is its end.
+    // Places along the reference edge, 0 to 1. The incident edge runs the other way, so that `low` is its end.
     let inverse = 1.0 / along.length_squared();
     let place = |point: DVec2| along.dot(point - from) * inverse;
     let (high, low) = (place(start), place(end));

@@ -1,4 +1,4 @@
-//! What axes and nearest points mean for two shapes: the number, its error, its sign, and where they touch.
+//! From axes and nearest points to an answer: the number, its error, its sign, and the contact points.
 
 use super::distance::Witness;
 use super::manifold::{Touch, nearest_on_edge, touch};
@@ -13,14 +13,14 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Rect, Shape2};
 
-/// What is asked of two shapes.
+/// What is asked about two shapes.
 #[derive(Clone, Copy)]
 pub(crate) struct Asked {
-    /// Metres beyond which nobody wants to know.
+    /// Separations above this are not wanted, in metres.
     pub(crate) limit: f64,
     /// The axis to try first.
     pub(crate) hint: Hint,
-    /// Whether contact points are wanted, those up to the limit.
+    /// Whether contact points up to the limit are wanted.
     pub(crate) points: bool,
 }
 
@@ -33,37 +33,37 @@ pub(crate) struct Near {
     pub(crate) error: f32,
     /// Unit axis from A to B.
     pub(crate) normal: DVec2,
-    /// Closest points of the shapes, where they do not overlap.
+    /// Closest points of the shapes, unless they overlap.
     pub(crate) closest: Option<[DVec2; 2]>,
-    /// What leads the next frame back to this axis.
+    /// Leads the next frame back to this axis.
     pub(crate) hint: Hint,
-    /// Contact points, where they were wanted. None for two half-planes that overlap without end.
+    /// Contact points, if they were wanted. `None` for two half-planes that overlap without end.
     pub(crate) touch: Option<Touch>,
 }
 
-/// What the answers about a pair are relative to, in metres.
+/// The lengths that answers about a pair are relative to, in metres.
 #[derive(Clone, Copy)]
 pub(crate) struct Measure {
     pub(super) precision: Precision,
-    /// Both radii, and A's.
+    /// Sum of both radii, and A's.
     pub(super) radii: f64,
     radius_a: f64,
-    /// How much another axis must beat a face of A by. Relative to the smaller shape: what is nothing to a floor
-    /// may be all of a pebble. Never below rounding.
+    /// By how much another axis must beat a face of A. Relative to the smaller shape: what is nothing to a floor may be
+    /// all of a pebble. Never below rounding.
     pub(super) preference: f64,
     /// How near a contact point must be to a vertex to be named after it, in metres.
     near: f64,
 }
 
 impl Measure {
-    /// By how much an axis must beat another, and how near a point is named after a vertex, in metres.
+    /// By how much an axis must beat another, and how near to a vertex a point is named after it, in metres.
     #[inline]
     pub(super) fn sizes(&self) -> [f64; 2] {
         [self.preference, self.near]
     }
 
-    /// Two shapes, and B's position less A's. `summed` is how long the vectors were that the position is a sum of,
-    /// in metres, where it is one of several: of parts.
+    /// For two shapes, and B's position less A's. For parts, whose offset is a sum of several vectors, `summed` is the
+    /// sum of those vectors' lengths, in metres.
     #[inline]
     pub(crate) fn new([a, b]: [&Shape2; 2], offset: DVec2, summed: Option<f64>) -> Self {
         let radii = [f64::from(a.radius()), f64::from(b.radius())];
@@ -76,7 +76,7 @@ impl Measure {
         Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, roundings)
     }
 
-    /// The same of two bodies that are rectangles.
+    /// The same for two bodies that are rectangles.
     #[inline]
     pub(super) fn of_rects([a, b]: [&Rect; 2], offset: DVec2) -> Self {
         let radii = [f64::from(a.radius()), f64::from(b.radius())];
@@ -84,8 +84,8 @@ impl Measure {
         Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, IN_PLANE[0])
     }
 
-    /// Of bounding radii, those of the roundings, the sum of what else a coordinate may be, and the roundings of a
-    /// projection.
+    /// From the bounding radii, the radii of rounding, the sum of what else enters a coordinate, and the rounding error
+    /// of a projection.
     #[inline]
     fn of_radii(
         [outer_a, outer_b]: [f32; 2],
@@ -94,8 +94,8 @@ impl Measure {
         roundings: f64,
     ) -> Self {
         let radii = radius_a + radius_b;
-        // What the distance iteration's steps are relative to: radii do not enter it. A half-plane has no size:
-        // only the other shape's vertices enter its pairs.
+        // The distance iteration's steps are relative to the size of the cores: radii do not enter it. A half-plane has
+        // no size: only the other shape's vertices enter its pairs.
         let core =
             |outer: f32, radius: f64| if outer < f32::INFINITY { f64::from(outer) - radius } else { 0.0 };
         let size = core(outer_a, radius_a) + core(outer_b, radius_b);
@@ -112,7 +112,7 @@ impl Measure {
         }
     }
 
-    /// What is wanted of the best axis. `towards_b` leads from A's centre to B's.
+    /// What is wanted of the best axis. `towards_b` is from A's centre to B's.
     #[inline]
     pub(super) fn wanted(&self, asked: &Asked, towards_b: DVec2) -> Wanted<'_> {
         Wanted {
@@ -124,14 +124,13 @@ impl Measure {
         }
     }
 
-    /// The answer for cores that an axis parts by more than was asked for.
+    /// The answer for cores that an axis separates by more than the limit.
     #[inline]
     pub(super) fn beyond(&self, separation: f64, hint: Hint) -> Probe {
         Probe::Beyond(at_least(separation - self.radii, &self.precision), hint)
     }
 
-    /// The answer, where it is beyond doubt by the axes, or by the nearest points where those lie on the best axis'
-    /// edge.
+    /// The answer, if it is certain by the axes, or by the nearest points where those lie on the best axis' edge.
     #[inline]
     pub(super) fn at_once(
         &self,
@@ -146,12 +145,12 @@ impl Measure {
         }
     }
 
-    /// The same, where no axis shows more than was asked for.
+    /// The same for shapes that no axis separates by more than the limit.
     #[inline]
     pub(super) fn within(&self, placed: [&impl Placed; 2], asked: &Asked, axes: &Axes) -> Option<Probe> {
         let (best, rounding) = (axes.best(), self.precision.projection());
-        // Every edge normal was tried, or is known to be no better. Shapes without an inside may lie on one line,
-        // and have no axis along it.
+        // Every edge normal was tried, or is known to be no better. Shapes without an interior may lie on one line, and
+        // have no candidate axis along it.
         if best.separation < -(axes.short + 2.0 * rounding) {
             let is_thin = placed[0].is_flat() && placed[1].is_flat();
             let verdict = Verdict { overlapping: true, tier: Tier::Bound };
@@ -169,7 +168,7 @@ impl Measure {
         Some(self.gap_of_cores(placed, asked, axes, (verdict, &witness)))
     }
 
-    /// Shapes whose cores are neither clearly apart nor clearly overlapping by their axes alone.
+    /// The answer for shapes whose axes alone show neither a clear gap nor a clear overlap of the cores.
     pub(super) fn close_cores(
         &self,
         placed: [&impl Placed; 2],
@@ -179,7 +178,7 @@ impl Measure {
     ) -> Probe {
         let verdict = *verdict;
         match cores {
-            // A search that proved no gap, where all axes show an overlap.
+            // A search that proved no gap, while all axes show an overlap.
             Cores::Between(witness) if verdict.overlapping && axes.best().separation + axes.short < 0.0 => {
                 self.overlap_of_cores(placed, asked, axes, (verdict, witness.distance))
             }
@@ -191,8 +190,8 @@ impl Measure {
         }
     }
 
-    /// Shapes whose cores overlap, or have so small a gap that no axis tells, as deep as the best axis says. `gap`
-    /// is the most that the gap can be.
+    /// The answer for shapes whose cores overlap, or have a gap too small for any axis to show: the depth is the best
+    /// axis'. `gap` is an upper bound on that gap.
     #[inline]
     fn overlap_of_cores(
         &self,
@@ -215,20 +214,21 @@ impl Measure {
         })
     }
 
-    /// What leads back to the edge that contact points were made on; else to the best axis.
+    /// The hint for the edge that contact points were built on; else for the best axis.
     fn hint(touch: Option<&Touch>, best: Hint) -> Hint {
         touch.and_then(|touch| touch.reference).map_or(best, hint_of)
     }
 
-    /// By how much the truth may exceed the best axis, of cores that are apart by at most `gap`.
+    /// By how much the truth may exceed the best axis, for cores that are at most `gap` apart.
     ///
-    /// In overlap the axes are all there are. In a gap the best one may be none of them, and only witness points tell.
+    /// In overlap the axes are all the candidates. In a gap the true axis may be none of them: only witness points can
+    /// show it.
     fn short(axes: &Axes, gap: f64) -> f64 {
         let (best, short) = (axes.best().separation, axes.short);
         if best + short < 0.0 { short } else { short.max(gap - best) }
     }
 
-    /// Shapes with a gap between their cores, which their radii may close.
+    /// The answer for shapes with a gap between their cores, which their radii may close.
     fn gap_of_cores(
         &self,
         placed: [&impl Placed; 2],
@@ -254,8 +254,8 @@ impl Measure {
         })
     }
 
-    /// Cores that an axis parts by so little that no two points of them do: their contact is made as if they
-    /// overlapped.
+    /// The answer for cores that an axis separates by so little that no two points of them show it: the contact is
+    /// built as if they overlapped.
     fn all_but_touching(
         &self,
         placed: [&impl Placed; 2],

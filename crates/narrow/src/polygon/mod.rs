@@ -1,13 +1,13 @@
 //! Convex polygons: the separating axis test, the distance and the manifold, in plain f64.
 //!
 //! ```text
-//! circles around and inside, rectangles at once        quick, rects
-//! all edges of few, side by side                       few
-//! many: a search over directions                       search
-//! in a gap that no edge's normal measures: GJK         distance
-//! closest points alone: that, and no edges             apart
-//! yes or no, where f64 cannot tell: integers           tiers
-//! what it means: number, error, sign, points           measure, manifold
+//! circles around and inside, rectangles at once                    quick, rects
+//! few edges: all of them, side by side                             few
+//! many edges: a search over directions                             search
+//! in a gap that no edge's normal measures: GJK                     distance
+//! closest points alone: the same, without edges                    apart
+//! yes or no, where f64 cannot decide: integers                     tiers
+//! number, error, sign and contact points of an answer              measure, manifold
 //! ```
 //! What each trick buys stands above its kernel; the definition of the best axis is `sat::plain`.
 

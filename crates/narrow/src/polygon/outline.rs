@@ -1,4 +1,4 @@
-//! A shape as the kernels see it: stored vertices, and how they stand in the frame of the pair.
+//! A shape as the kernels see it: its stored vertices, and their pose in the frame of the pair.
 
 use super::few::Few;
 use crate::counted::count_step;
@@ -7,7 +7,7 @@ use asunder_geometry::{Core2, Rotation2, Shape2};
 
 /// A rotation by its matrix [c -s; s c], in f64: the stored one of a body, or its product with a part's.
 ///
-/// The stored pair is of unit length only up to rounding, and so the matrix scales by as much: that is part of the true
+/// The stored pair is of unit length only up to rounding, so the matrix also scales slightly: that is part of the true
 /// shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
@@ -25,10 +25,10 @@ impl Turn {
         Self { cos: unit.x, sin: unit.y }
     }
 
-    /// One over the matrix' stretch, within 3 roundings of 2^-53.
+    /// One over the matrix' scale, within 3 roundings of 2^-53.
     ///
-    /// The squared stretch is 1 + e with |e| < 3e-7, also for the product of two matrices: the third power of that is
-    /// nothing, and no root and no quotient are taken.
+    /// The squared scale is 1 + e with |e| < 3e-7, also for the product of two matrices: the third power of e is
+    /// negligible, and neither root nor quotient is needed.
     #[inline]
     pub(crate) fn unit(&self) -> f64 {
         let excess = self.cos * self.cos + self.sin * self.sin - 1.0;
@@ -47,7 +47,7 @@ impl Turn {
         DVec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
     }
 
-    /// A direction turned by the transposed matrix: back to local axes, scaled as the matrix scales.
+    /// A direction turned by the transposed matrix: back to local axes, with the matrix' scale.
     #[inline]
     pub(crate) fn turn_back(&self, v: DVec2) -> DVec2 {
         DVec2::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
@@ -60,22 +60,22 @@ impl Turn {
     }
 }
 
-/// Vertices of a polygon above which a support is searched and no longer looked for one by one.
+/// Up to this many vertices, a support is found by testing each; beyond, by a search.
 pub(super) const FEW_VERTICES: usize = 16;
 
-/// What a searched support adds to the roundings of a projection, in units of 2^-53 of the reach: see
+/// What a searched support adds to the rounding error of a projection, in units of 2^-53 of the reach: see
 /// [`Outline::climb`].
 pub(crate) const OF_SEARCH: f64 = 4.0;
 
-/// A core in the frame of a pair: the world's axes, about A's position. Most often a polygon; a segment has two edges
-/// back to back, a point none.
+/// A core in the frame of a pair: the world's axes, about A's position. Usually a polygon; a segment has two edges back
+/// to back, a point none.
 ///
-/// The stored rotation is within rounding of one and not exactly one, so turned normals are normalised again and
-/// both shapes are turned, where in space a relative rotation would do.
+/// The stored rotation is of unit length only up to rounding, so turned normals are normalised again, and both shapes
+/// are turned where in space one relative rotation would do.
 pub(crate) struct Outline<'a> {
     pub(crate) vertices: &'a [Vec2],
     normals: &'a [DVec2],
-    /// Of a polygon of many vertices, those furthest along +x, +y, -x and -y.
+    /// For a polygon of many vertices, those furthest along +x, +y, -x and -y.
     extremes: Option<[usize; 4]>,
     /// Half extents of a rectangle.
     pub(super) half: Option<DVec2>,
@@ -93,13 +93,14 @@ pub(crate) struct Support {
     pub(crate) reach: f64,
 }
 
-/// A vector that is of unit length up to some roundings, made so up to 3: by one step of Newton's, without a root.
+/// Normalises a vector that is of unit length up to some roundings, to within 3: by one step of Newton's, without a
+/// root.
 #[inline]
 pub(super) fn renormalized(v: DVec2) -> DVec2 {
     v * (1.5 - 0.5 * v.length_squared())
 }
 
-/// Whether supports of a shape are searched, and so [`OF_SEARCH`] less exact.
+/// Whether supports of a shape are searched, and so less exact by [`OF_SEARCH`].
 pub(crate) fn is_searched(shape: &Shape2) -> bool {
     matches!(shape, Shape2::Polygon(polygon) if polygon.vertices().len() > FEW_VERTICES)
 }
@@ -135,13 +136,13 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// The same, placed, of no more than N vertices.
+    /// The same with vertices placed, for a core of at most N vertices.
     #[inline]
     pub(super) fn few<const N: usize>(&self) -> Few<N> {
         Few::new((self.vertices, self.normals), &self.turn, self.position, self.radius)
     }
 
-    /// Whether it has no inside: a point or a segment.
+    /// Whether it has no interior: a point or a segment.
     #[inline]
     pub(crate) fn is_flat(&self) -> bool {
         self.vertices.len() <= 2
@@ -165,7 +166,7 @@ impl<'a> Outline<'a> {
         if vertex == 0 { self.vertices.len() - 1 } else { vertex - 1 }
     }
 
-    /// The vertex so many edges after this one, no more than all.
+    /// The vertex `edges` edges after this one, at most once around.
     #[inline]
     pub(super) fn ahead(&self, vertex: usize, edges: usize) -> usize {
         let ahead = vertex + edges;
@@ -203,8 +204,8 @@ impl<'a> Outline<'a> {
         self.support_near(direction, None)
     }
 
-    /// The same, asked of one vertex first, which it may be, or be beside: two edges tell. Of those that tie up to
-    /// rounding it may be another.
+    /// The same, starting from a vertex that may be the furthest or next to it: then two edges decide. Among vertices
+    /// that tie up to rounding, it may return another.
     #[inline]
     pub(crate) fn support_near(&self, direction: DVec2, near: Option<usize>) -> Support {
         let local = self.turn.turn_back(direction);
@@ -224,7 +225,7 @@ impl<'a> Outline<'a> {
             None if self.half.is_some() => corner_along(local),
             None => self.furthest(local),
             Some(extremes) => {
-                // Edges from one extreme vertex to the next look into one quadrant, in order of their angles.
+                // Edges from one extreme vertex to the next face into one quadrant, in order of their angles.
                 let (from, to) = match (local.x < 0.0, local.y < 0.0) {
                     (false, false) => (extremes[0], extremes[1]),
                     (true, false) => (extremes[1], extremes[2]),
@@ -236,10 +237,10 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// As [`climb_local`](Self::climb_local), beginning at a vertex where it is one of those.
+    /// As [`climb_local`](Self::climb_local), but starts from `near` if that is one of those vertices.
     #[inline]
     fn climb_near(&self, from: usize, edges: usize, local: DVec2, near: Option<usize>) -> usize {
-        // How many of the edges lie before it.
+        // How many of the edges come before it.
         let Some(before) = near.map(|near| self.edges_between(from, near)).filter(|&before| before <= edges)
         else {
             return self.climb_local(from, edges, local);
@@ -272,13 +273,13 @@ impl<'a> Outline<'a> {
         best
     }
 
-    /// The vertex furthest along a direction, of those from `from` on up to so many edges later. Those edges turn
-    /// by less than half a circle, and the direction lies between the first one's normal and the last one's.
+    /// The vertex furthest along a direction, among those from `from` on up to `edges` edges later. Those edges turn by
+    /// less than half a circle, and the direction lies between the first one's normal and the last one's.
     ///
-    /// Then edges first ascend and afterwards descend, and the last that ascends is found by halving. An edge e of
-    /// which the sign of d.e is rounded away has |d.e| <= 2 u |d| |e|: where it vanishes, both products are at most
-    /// |d| |e| / 2, and their sum is rounded by next to nothing; the difference of two f32 is off by u at most. All such edges stand
-    /// side by side, nearly on one line, and are no longer together than the polygon, 2 R. So whichever of them the
+    /// So edges first ascend and then descend, and the last that ascends is found by halving. An edge e for which the
+    /// sign of d.e is lost to rounding has |d.e| <= 2 u |d| |e|: where d.e vanishes, both products are at most |d| |e|
+    /// / 2, and their sum is rounded by next to nothing; the difference of two f32 is off by u at most. All such edges
+    /// are neighbours, nearly on one line, and together no longer than the polygon, 2 R. So whichever of them the
     /// search ends at, it falls short of the furthest vertex by at most 4 u R: [`OF_SEARCH`].
     #[inline]
     pub(super) fn climb(&self, from: usize, edges: usize, direction: DVec2) -> usize {

@@ -1,4 +1,4 @@
-//! What contact points are made from: a core whose vertices and edges stand in the frame of the pair.
+//! What contact points are built from: a core whose vertices and edges are placed in the frame of the pair.
 
 use super::outline::Outline;
 use asunder_geometry::glam::DVec2;
@@ -8,7 +8,7 @@ pub(crate) trait Placed {
     /// How far the shape reaches beyond this core.
     fn radius(&self) -> f64;
 
-    /// Whether it has no inside: a point or a segment.
+    /// Whether it has no interior: a point or a segment.
     fn is_flat(&self) -> bool;
 
     /// Number of edges: none of a point, two of a segment.
@@ -29,7 +29,7 @@ pub(crate) trait Placed {
     /// The vertex furthest along a direction.
     fn furthest(&self, direction: DVec2) -> usize;
 
-    /// Of the two edges at the deepest vertex, the one that looks most against a normal; ties go to the one before.
+    /// Of the two edges at the deepest vertex, the one that faces a normal most; in a tie, the one before.
     #[inline]
     fn facing(&self, deepest: usize, normal: DVec2) -> usize {
         let previous = self.before(deepest);
@@ -37,7 +37,7 @@ pub(crate) trait Placed {
         if facing(deepest) < facing(previous) { deepest } else { previous }
     }
 
-    /// The same, of the vertex that is furthest against the normal.
+    /// The same for the vertex that is furthest against the normal.
     #[inline]
     fn facing_edge(&self, normal: DVec2) -> usize {
         self.facing(self.furthest(-normal), normal)

@@ -1,14 +1,13 @@
-//! What can be told of two bodies before they are made ready for a kernel: circles around and inside them, and
-//! rectangles.
+//! Answers about two bodies before they are prepared for a kernel: circles around and inside them, and rectangles.
 //!
 //! | trick | gain, AMD EPYC, Zen 4 |
 //! |---|---|
-//! | circles around both | polygons of 64, apart by a broad phase's mistake: 97 ns to 12 |
+//! | circles around both | polygons of 64, apart, where the broad phase reported a pair: 97 ns to 12 |
 //! | circles inside both | polygons of 64, deep: 314 ns to 12 |
-//! | two rectangles: `rects`, at once | 103 ns to 30 |
+//! | two rectangles go to `rects` at once | 103 ns to 30 |
 //!
-//! A stored rotation stretches by its length, which is one up to the rounding of f32: radii are widened, or
-//! narrowed, by more than that. What positions and centres lose is bounded by the sum of their coordinates.
+//! A stored rotation stretches by its length, which is one up to the rounding of f32: radii are widened, or narrowed,
+//! by more than that. The rounding of positions and centres is bounded by the sum of their coordinates.
 
 use super::few::{self, Few};
 use super::measure::{Asked, Measure, Probe};
@@ -19,10 +18,10 @@ use crate::precision::{IN_PLANE, Precision, round_down};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Rect, Shape2, glam::Vec2};
 
-/// By how much a stored rotation may stretch, and more.
+/// More than a stored rotation may stretch by.
 const STRETCH: f64 = 4.0 * f32::EPSILON as f64;
 
-/// Two bodies: their shapes, how they are turned, and B's position less A's.
+/// Two bodies: their shapes, their rotations, and B's position less A's.
 #[derive(Clone, Copy)]
 pub(crate) struct Bodies<'s> {
     pub(crate) shapes: [&'s Shape2; 2],
@@ -47,7 +46,7 @@ impl Circles {
             Shape2::Circle(circle) => (Vec2::ZERO, circle.radius(), circle.radius()),
             Shape2::Capsule(_) | Shape2::Segment(_) => {
                 let center = shape.center();
-                // The middle was rounded: no further beside the segment than twice this.
+                // The middle was rounded: it is beside the segment by no more than twice this.
                 let beside = f32::EPSILON * center.abs().element_sum();
                 (center, shape.outer_radius(), shape.radius() - beside)
             }
@@ -58,7 +57,7 @@ impl Circles {
 }
 
 impl Bodies<'_> {
-    /// Whether they overlap, where that is plain to see.
+    /// Whether they overlap, if circles or rectangles show it.
     #[inline]
     pub(crate) fn overlap(&self) -> Option<bool> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes
@@ -83,9 +82,9 @@ impl Bodies<'_> {
         (inner > 0.0 && squared < inner * inner).then_some(true)
     }
 
-    /// The answer, where it is beyond doubt by circles or by axes of few edges: most pairs' answer.
+    /// The answer, if it is certain by circles or by axes of few edges: for most pairs it is.
     ///
-    /// The way between them goes on by value, in registers: see `rects`.
+    /// The offset between them is passed by value, in registers: see `rects`.
     #[inline]
     pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes {
@@ -104,7 +103,7 @@ impl Bodies<'_> {
         measure.at_once([&a, &b], asked, &outcome)
     }
 
-    /// How far apart they are at least, where circles around them show more than a limit.
+    /// A lower bound on how far they are apart, if circles around them show more than a limit.
     #[inline]
     fn beyond(&self, limit: f64) -> Option<f64> {
         let [a, b] = [Circles::of(self.shapes[0])?, Circles::of(self.shapes[1])?];
@@ -115,7 +114,7 @@ impl Bodies<'_> {
         (squared > reach * reach).then(|| squared.sqrt() - outer).filter(|&gap| gap > limit)
     }
 
-    /// From A's centre to B's, and more than is lost to rounding by it, its length, and what that is compared with.
+    /// From A's centre to B's; and a bound on what it, its length, and what that is compared with lose to rounding.
     #[inline]
     fn centers(&self, centers: [Vec2; 2]) -> (DVec2, f64) {
         let (a, b) = (centers[0].as_dvec2(), centers[1].as_dvec2());
@@ -125,7 +124,7 @@ impl Bodies<'_> {
     }
 }
 
-/// The answer of two rectangles, by their four axes.
+/// The answer for two rectangles, by their four axes.
 fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
     let measure = Measure::of_rects([a, b], between);
     let wanted = measure.wanted(asked, between);
@@ -140,7 +139,7 @@ fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked
     measure.within([&corners_a, &corners_b], asked, &axes)
 }
 
-/// The answer of other shapes: circles first, and then all axes of few edges.
+/// The answer for other shapes: by circles first, and then by all axes of few edges.
 fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
     let bodies = Bodies { shapes, turns, between };
     if let Some(gap) = bodies.beyond(asked.limit) {
@@ -149,7 +148,7 @@ fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &As
     let (core_a, core_b) = (shapes[0].core(), shapes[1].core());
     let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
     let (a, b) = (cores[0].0.len(), cores[1].0.len());
-    // A circle has no edges, a half-plane and a compound have no vertices.
+    // A circle has no edges, a half-plane and a compound no vertices.
     if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
         return None;
     }

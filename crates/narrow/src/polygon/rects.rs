@@ -6,9 +6,9 @@
 //! ```
 //! Gottschalk, Lin and Manocha, "OBBTree" (1996), in the plane. That is the projection of all eight vertices.
 //!
-//! What is lost to rounding: C and S are sums of exact products, 1 u; a product, 1 u; three sums, 3 u; the offset,
-//! its products and their sum, 4 u; the scale to unit length, 3 u: less than 10 u of the reach. An axis is the
-//! stored direction itself and so not beside its place at all. Parts' matrices and offsets add what they do everywhere.
+//! What is lost to rounding: C and S are sums of exact products, 1 u; a product, 1 u; three sums, 3 u; the offset, its
+//! products and their sum, 4 u; the scale to unit length, 3 u: less than 10 u of the reach. An axis is the stored
+//! direction itself, so its direction has no error. Parts' matrices and offsets add what they do everywhere.
 //!
 //! | trick | gain, rectangles of a broad phase, yes or no |
 //! |---|---|
@@ -16,22 +16,22 @@
 //! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
 //!
 //! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work).
-//! What was saved are jumps that cannot be foretold (which edge, which sign) and waiting: a load of 16 bytes that
-//! were stored as two times 8 is not forwarded, and takes 5 ns or more. What bought what, in a bare loop over the
-//! same pairs:
+//! What was saved are branches that cannot be predicted (which edge, which sign) and stalls: a load of 16 bytes that
+//! were stored as two times 8 is not forwarded, and takes 5 ns or more. What bought what, in a bare loop over the same
+//! pairs:
 //!
 //! | trick | gain |
 //! |---|---|
 //! | an edge's normal and sign are looked up, in constants | 120 ns to 105, and 95 to 92 |
-//! | what a pair is measured by, without asking what shapes they are | 105 to 103 |
-//! | the way between both goes to the kernel by value, in registers | 103 to 100; separation 50 to 37 |
-//! | a gap is told before normals are turned | apart: 36 to 27 |
-//! | the edge that looks at the reference, by two signs and one comparison | 90 to 85 |
+//! | measures of a pair without asking what shapes they are | 105 to 103 |
+//! | the offset between both goes to the kernel by value, in registers | 103 to 100; separation 50 to 37 |
+//! | a gap is reported before normals are turned | apart: 36 to 27 |
+//! | the edge that faces the reference, by two signs and one comparison | 90 to 85 |
 //! | two contact points are stored once, in their order, not swapped | resting: 122 to 118 |
 //!
 //! Did not pay, since all of them copy points or ends through memory: choosing the reference shape by pointers, one
-//! path for A and B (8 % slower); ordering the clipped ends before making points of them (15 % slower); points
-//! written at reckoned places without jumps (6 % slower); everything inlined into one function (8 % slower).
+//! path for A and B (8 % slower); ordering the clipped ends before making points of them (15 % slower); points written
+//! at computed places without branches (6 % slower); everything inlined into one function (8 % slower).
 
 use super::outline::Turn;
 use super::placed::Placed;
@@ -39,16 +39,16 @@ use super::sat::{Axes, Axis, AxisOf, Wanted};
 use asunder_geometry::Rect;
 use asunder_geometry::glam::DVec2;
 
-/// How two rectangles lie along the local axes of A and of B, x and y.
+/// The projections of two rectangles on the local axes of A and of B, x and y.
 pub(crate) struct Rects {
     /// B's centre less A's, along each axis.
     offsets: [f64; 4],
-    /// How far both reach.
+    /// How far both reach along each axis, together.
     reaches: [f64; 4],
 }
 
 impl Rects {
-    /// Half extents of both, how they are turned, and B's position less A's.
+    /// From the half extents of both, their rotations, and B's position less A's.
     #[inline]
     pub(crate) fn new([a, b]: [DVec2; 2], [turn_a, turn_b]: [&Turn; 2], offset: DVec2) -> Self {
         let ([a_x, a_y], [b_x, b_y]) = (turn_a.axes(), turn_b.axes());
@@ -65,7 +65,7 @@ impl Rects {
         }
     }
 
-    /// The greatest separation along any axis, none of them of unit length but for an f32 rounding.
+    /// The greatest separation along any axis; axes are of unit length only up to an f32 rounding.
     #[inline]
     pub(crate) fn top(&self) -> f64 {
         let along = |axis: usize| self.offsets[axis].abs() - self.reaches[axis];
@@ -73,7 +73,7 @@ impl Rects {
         greater(greater(along(0), along(1)), greater(along(2), along(3)))
     }
 
-    /// The edge of a shape that looks at the other along one of its axes; of two that do, the lower one.
+    /// The edge of a shape that faces the other along one of its axes; if two do, the lower one.
     #[inline]
     fn facing(&self, axis: usize) -> usize {
         let offset = self.offsets[axis];
@@ -109,8 +109,8 @@ impl Rects {
         }
     }
 
-    /// The axis that is normal to an edge, by shape and index. Looked up, since which edge it is cannot be
-    /// foretold; and from constants: vectors that were just put into an array by halves would be waited for.
+    /// The axis that is normal to an edge, by shape and index. By table, since a branch on the edge cannot be
+    /// predicted; and from constants, since vectors just put into an array by halves would stall the load.
     #[inline]
     fn axis(&self, of: AxisOf, turns: [&Turn; 2]) -> Axis {
         let (edge, which, sign) = match of {
@@ -132,8 +132,8 @@ impl Rects {
         if (x > y) | ((x == y) & (edge_x < edge_y)) { (edge_x, x) } else { (edge_y, y) }
     }
 
-    /// The best axis of either shape, and what the hint names where it is within the band; or that one shows more
-    /// than the limit: which is told before a normal is turned.
+    /// The best axis of each shape, and the hinted one if it is within the band; or an axis that shows more than the
+    /// limit, which is reported before any normal is turned.
     #[inline]
     fn axes(&self, turns: [&Turn; 2], kept: Option<AxisOf>, wanted: &Wanted) -> Result<Axes, (f64, AxisOf)> {
         let ((edge_a, in_a), (edge_b, in_b)) = (self.best(0), self.best(2));
@@ -154,8 +154,8 @@ impl Rects {
     }
 }
 
-/// Finds the best axes of two rectangles: half extents of both, how they are turned, and B's position less A's;
-/// what the hint names, and what is wanted. An error is an axis that shows more than the limit.
+/// Finds the best axes of two rectangles, from the half extents of both, their rotations, B's position less A's, the
+/// edge that the hint refers to, and what is wanted. An error is an axis that shows more than the limit.
 #[inline]
 pub(super) fn best_axes(
     halves: [DVec2; 2],
@@ -171,7 +171,7 @@ pub(super) struct Corners {
     center: DVec2,
     /// Local axes of unit length, up to some roundings.
     axes: [DVec2; 2],
-    /// Local axes as long as the half extents, as the matrix turns and stretches them.
+    /// Local axes scaled by the half extents, as the matrix turns and scales them.
     halves: [DVec2; 2],
     radius: f64,
 }
@@ -212,7 +212,7 @@ impl Placed for Corners {
 
     #[inline]
     fn point(&self, vertex: usize) -> DVec2 {
-        // Counter-clockwise from the least corner. Looked up, since which it is cannot be foretold.
+        // Counter-clockwise from the lowest corner. By table, since a branch on the vertex cannot be predicted.
         const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let [x, y] = SIGNS[vertex % 4];
         self.center + (self.halves[0] * x + self.halves[1] * y)
@@ -220,15 +220,15 @@ impl Placed for Corners {
 
     #[inline]
     fn outward(&self, edge: usize) -> DVec2 {
-        // Edges look along -y, x, y and -x.
+        // Edges face along -y, x, y and -x.
         const SIGNS: [f64; 4] = [-1.0, 1.0, 1.0, -1.0];
         self.axes[usize::from(edge.is_multiple_of(2))] * SIGNS[edge % 4]
     }
 
     #[inline]
     fn facing_edge(&self, normal: DVec2) -> usize {
-        // Of its four edges two look against the normal: across x and across y. Where both look alike, the one that the
-        // deepest vertex ends.
+        // Of the four edges two face the normal: across x and across y. If both do equally, the one that ends at the
+        // deepest vertex.
         let (x, y) = (-normal.dot(self.axes[0]), -normal.dot(self.axes[1]));
         let (across_x, across_y) = (if x > 0.0 { 1 } else { 3 }, if y > 0.0 { 2 } else { 0 });
         let (steep, flat) = (x.abs(), y.abs());

@@ -1,14 +1,14 @@
-//! Axes that may part two convex polygons: what they are, how one is evaluated, and which kernel finds the best.
+//! Axes that may separate two convex polygons: what they are, how one is evaluated, and which kernel finds the best.
 //!
 //! ```text
-//! two polygons are apart, or as deep as they are, along a normal of an edge of either
+//! two polygons have their separation, positive or negative, along a normal of an edge of either
 //! two rectangles:      four axes in closed form               (rects)
 //! few edges:           all of them, side by side              (few)
 //! many edges:          a search over directions               (search)
 //! ```
-//! Gottschalk, "Separating axis theorem" (1996). Whatever proposes an axis, it is believed only after both shapes were
-//! projected on it, by [`axis`]; that is the definition, and `plain` below is the definition of the
-//! best axis, kept to hold the kernels against.
+//! Gottschalk, "Separating axis theorem" (1996). Whatever proposes an axis, it is trusted only after both shapes were
+//! projected on it, by [`axis`]. That is the definition of an axis' separation; `plain` below is the definition of the
+//! best axis, to test the kernels against.
 
 use super::few;
 use super::outline::{FEW_VERTICES, Outline};
@@ -18,7 +18,7 @@ use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec2;
 
-/// What an axis is the normal of.
+/// The edge that an axis is normal to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum AxisOf {
     EdgeA(usize),
@@ -33,8 +33,8 @@ pub(crate) struct Axis {
     pub(crate) of: AxisOf,
 }
 
-/// The best axis of each shape, as far as it matters: one that is further than the band of the question below the best
-/// of all may be missing, with a separation of -inf, or not be the best of its shape.
+/// The best axis of each shape, as far as it matters: if it is below the best of all by more than the band of the
+/// question, it may be missing (a separation of -inf), or not be the best of its shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axes {
     pub(crate) edge_a: Axis,
@@ -46,7 +46,7 @@ pub(crate) struct Axes {
 }
 
 impl Axes {
-    /// No axis was looked at: separation -inf.
+    /// No axis was tested: separation -inf.
     pub(super) const NONE: Self = Self {
         edge_a: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeA(0) },
         edge_b: Axis { separation: f64::NEG_INFINITY, normal: DVec2::X, of: AxisOf::EdgeB(0) },
@@ -61,23 +61,23 @@ impl Axes {
     }
 }
 
-/// What is wanted of the best axis.
+/// What is asked about the best axis.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wanted<'a> {
-    /// An axis that shows more settles it.
+    /// An axis that shows a greater separation settles the question.
     pub(crate) limit: f64,
-    /// How far below the best axis another one matters: not less than two projections' rounding.
+    /// How far below the best axis another one still matters: at least the rounding of two projections.
     pub(crate) band: f64,
-    /// What the last frame found. It is tried first; the number does not depend on it.
+    /// What the last frame found. It is tried first; the result does not depend on it.
     pub(crate) hint: Hint,
     /// A's centre to B's, of any length.
     pub(crate) towards_b: DVec2,
-    /// That of the pair.
+    /// The pair's precision.
     pub(crate) precision: &'a Precision,
 }
 
-/// Outcome of a test: an axis that parts the shapes by more than the limit, or a gap within it that only the nearest
-/// points tell, or the best axes.
+/// Outcome of a test: an axis that separates the shapes by more than the limit, or a gap within it that only the
+/// nearest points can measure, or the best axes.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
 pub(crate) enum Outcome {
     Beyond(f64, Hint),
@@ -85,10 +85,10 @@ pub(crate) enum Outcome {
     Within(Axes),
 }
 
-/// Which side of touching all edge normals put two shapes on.
+/// What all edge normals say of two shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sides {
-    /// One axis parts them for certain.
+    /// One axis certainly separates them.
     Apart,
     /// Every axis shows more overlap than its error.
     Overlapping,
@@ -114,7 +114,7 @@ pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outc
     }
 }
 
-/// Which side of touching the shapes are on, by axes that show more than `doubt`.
+/// What the axes say of the two shapes, counting only separations and overlaps beyond `doubt`.
 pub(crate) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
     match a.vertices.len().max(b.vertices.len()) {
         0..=8 => few::sides([&a.few::<8>(), &b.few()], doubt),
@@ -123,14 +123,14 @@ pub(crate) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> S
     }
 }
 
-/// What an axis may show too much or too little that no kernel has projected fully yet: two projections' rounding.
+/// By how much the separation along an axis may be off before a full projection: two projections' rounding.
 #[inline]
 pub(crate) fn doubt(precision: &Precision) -> f64 {
     2.0 * precision.projection()
 }
 
-/// The normal of an edge, from A to B, and both shapes projected on it. `near` is a vertex of the other shape that
-/// may be the furthest one, or beside it; of the edge's own shape its start is.
+/// The normal of an edge, from A to B, with both shapes projected on it. `near` is a vertex of the other shape that may
+/// be its support point, or next to it; on the edge's own shape that is the edge's start.
 pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf, near: Option<usize>) -> Axis {
     let (normal, near_a, near_b) = match of {
         AxisOf::EdgeA(edge) => (a.normal(edge), Some(edge), near),
@@ -140,7 +140,7 @@ pub(super) fn axis(a: &Outline, b: &Outline, of: AxisOf, near: Option<usize>) ->
     Axis { separation, normal, of }
 }
 
-/// What a hint names: an edge that this pair has, or a direction.
+/// What a hint refers to: an edge that this pair has, or a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Named {
     Edge(AxisOf),
@@ -156,11 +156,11 @@ impl Named {
     }
 }
 
-/// What a hint names; nothing where a pair of so many edges each has no such thing.
+/// What a hint refers to; `None` if a pair with so many edges each has no such edge.
 #[inline]
 pub(super) fn named(edges: [usize; 2], hint: Hint) -> Option<Named> {
     let Some(features) = hint.features() else {
-        // A hint from space may lie across the plane.
+        // A hint from space may be perpendicular to the plane.
         return hint.direction()?.truncate().try_normalize().map(Named::Direction);
     };
     match (features.a(), features.b()) {
@@ -187,7 +187,7 @@ pub(crate) fn hint_of_direction(direction: DVec2) -> Hint {
     Hint::towards(direction.extend(0.0))
 }
 
-/// The definition: the best axis of each shape, every one of them fully projected. Cost: the product of the vertex
+/// The definition: the best axis of each shape, with every axis fully projected. Cost: the product of the vertex
 /// counts, twice, or less by what a search saves.
 #[cfg(test)]
 pub(super) fn plain(a: &Outline, b: &Outline) -> Axes {

@@ -6,28 +6,28 @@
 //! take two opposite directions; between them, both ways round, all edges of D are in two arcs
 //! take an arc, from corner p at direction n_p to corner q at direction n_q
 //!   every direction between has h(n) >= max(n.p, n.q) >= min(h(n_p), the chord's distance from the origin, h(n_q))
-//!   no less than the best so far and the band: no edge of the arc matters
+//!   if that is above the best so far by more than the band: no edge of the arc matters
 //!   few edges: evaluate each
-//!   else split it where the chord's normal has its support
+//!   else split the arc at the support point of the chord's normal
 //! ```
-//! The step is that of the expanding polytope (van den Bergen, "Proximity queries and penetration depth computation
-//! on 3D game objects", 2001), without its queue, its iteration limit and its tolerance: what is left out is proved
-//! to be worse, by corners that were met, for every direction and not only for edges. A gap shows as h(n) < 0 and
-//! ends the search: it is then the search for a separating direction of Chung and Wang (1996).
+//! The step is that of the expanding polytope (van den Bergen, "Proximity queries and penetration depth computation on
+//! 3D game objects", 2001), without its queue, its iteration limit and its tolerance: whatever is left out is proved to
+//! be worse by the corners found, for every direction and not only for edges. A gap shows as h(n) < 0 and ends the
+//! search, which then is the search for a separating direction of Chung and Wang (1996).
 //!
 //! What keeps it cheap:
 //! 1. A support is found by halving (`Outline::climb`), within the edges of the arc: 4096 edges take 12 steps at
 //!    first, then ever fewer. All splits of a pair of circles about one centre, where nothing can be left out, add
 //!    up to a linear number of steps.
-//! 2. Where the centre of B lies as seen from A is a good first direction, last frame's axis a better one.
-//! 3. Bounds are compared as squares; a root is taken only of a new best.
-//! 4. The distance iteration asks its last corner first: 2340 ns to 2100 for polygons of 64 vertices in a gap, 6.25
-//!    us to 5.9 for 4096.
-//! 5. An edge's own end is asked first when its axis is projected, and beside a gap the vertex that faces it: 2100
-//!    ns to 1900, and 5.9 us to 4.55.
+//! 2. The direction from A's centre to B's is a good first one, last frame's axis a better one.
+//! 3. Bounds are compared as squares; a root is taken only for a new best.
+//! 4. The distance iteration starts its searches at its last corner: 2340 ns to 2100 for polygons of 64 vertices in a
+//!    gap, 6.25 us to 5.9 for 4096.
+//! 5. When an axis is projected, the search starts at the edge's own end, and beside a gap at the vertex that faces it:
+//!    2100 ns to 1900, and 5.9 us to 4.55.
 //!
 //! How it grows, in ns (AMD EPYC, Zen 4, 2026-11-21, a busy machine, the lower of two runs; rows `grown*` of
-//! `compare -- narrow`, of pairs that circles do not tell; `apart` and `light` lie within 1e-2 of size of touching,
+//! `compare -- narrow`, of pairs that circles do not decide; `apart` and `light` lie within 1e-2 of size of touching,
 //! `deep` on one centre, where every edge is as good):
 //!
 //! | vertices | 8 | 16 | 32 | 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 |
@@ -38,11 +38,11 @@
 //! | apart, distance | 290 | 428 | 1706 | 1947 | 2221 | 2554 | 2890 | 3782 | 4364 | 4754 |
 //! | deep, separation | 164 | 293 | 2281 | 4070 | 7476 | 13700 | 26000 | 50400 | 93500 | 151000 |
 //!
-//! Up to 16 vertices it is all edges side by side that answer (`few`).
+//! Up to 16 vertices, all edges are tested side by side instead (`few`).
 //!
-//! Error: an arc that was left out has no axis within the band of the best, but for the rounding of two
-//! projections, which the band is wider than. An edge's own evaluation is as in `few`, plus a searched support:
-//! within two projections' rounding, which count what a search may lose.
+//! Error: an arc that was left out has no axis within the band of the best, except for the rounding of two projections,
+//! which is less than the band. An edge's own evaluation is as in `few`, plus a searched support: within two
+//! projections' rounding, which include what a search may lose.
 
 use super::outline::Outline;
 use super::sat::{Axes, Axis, AxisOf, Named, Outcome, Sides, Wanted, axis, doubt, hint_of_direction};
@@ -50,13 +50,14 @@ use crate::counted::count_step;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 
-/// Edges of an arc up to which each is evaluated.
+/// An arc of at most this many edges has each of them evaluated.
 const LEAF: usize = 3;
 
-/// Arcs that wait: twice the bits of the most edges there are. An arc that finds no room is evaluated edge by edge.
+/// Capacity for waiting arcs: twice the bits of the greatest edge count. An arc that finds no room is evaluated edge by
+/// edge.
 const WAITING: usize = 32;
 
-/// Finds the best axes. `hint` is what the hint names.
+/// Finds the best axes. `hint` is what the hint refers to.
 pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wanted: &Wanted) -> Outcome {
     let doubt = doubt(wanted.precision);
     let mut search = Search::new(a, b, wanted.limit, doubt);
@@ -74,7 +75,7 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wan
     };
     match stop {
         Some((separation, direction)) if separation > wanted.limit => {
-            // A hint that still parts them is kept as it is, and not rounded once more.
+            // A hinted direction that still separates them is kept as it is, and not rounded once more.
             let is_kept = |hint: Named| match hint {
                 Named::Direction(hinted) => {
                     (hinted - direction).length_squared() < f64::EPSILON * f64::EPSILON * 64.0
@@ -89,7 +90,7 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wan
     }
 }
 
-/// Which side of touching the shapes are on.
+/// What all axes say of the two shapes.
 pub(super) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
     let mut search = Search::new(a, b, doubt, doubt);
     search.is_sign = true;
@@ -101,10 +102,10 @@ pub(super) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> S
     }
 }
 
-/// The axes of edges that show at least so much, of shapes with a gap between them; `normal` is the direction of the
-/// nearest points.
+/// For shapes with a gap, the best axes of edges among those that show at least `least`; `normal` is the direction of
+/// the nearest points.
 ///
-/// The directions that show a gap of at least so much are one arc about it, and so are the edges.
+/// The directions that show a gap of at least `least` are one arc about `normal`, and so are their edges.
 pub(super) fn beside(a: &Outline, b: &Outline, normal: DVec2, least: f64) -> Axes {
     let mut axes = Axes::NONE;
     let mut keep = |axis: Axis| {
@@ -147,7 +148,7 @@ struct Arc {
     edges_b: usize,
     from: DVec2,
     to: DVec2,
-    /// The squares of the depths at both ends' directions; zero where those show none.
+    /// The squares of the depths along both ends' directions; zero for a direction that shows a gap.
     ends: [f64; 2],
 }
 
@@ -159,9 +160,9 @@ struct Search<'s, 'a> {
     band: f64,
     /// Whether only the sign of the depth is wanted.
     is_sign: bool,
-    /// Whether, of that, a depth was met that is too small to tell.
+    /// Whether a depth was found that is too small to decide the sign.
     is_close: bool,
-    /// The least depth that any direction showed.
+    /// The least depth found along any direction.
     best: f64,
     /// Depths above this do not matter.
     cut: f64,
@@ -194,7 +195,7 @@ impl<'s, 'a> Search<'s, 'a> {
         (in_a, in_b, self.a.point(in_a) - self.b.point(in_b))
     }
 
-    /// Takes the depth along a direction of any length into account, and gives its square.
+    /// Takes the depth along a direction of any length into account, and returns its square.
     fn meet(&mut self, direction: DVec2, corner: DVec2) -> Result<f64, Stop> {
         let (along, length) = (direction.dot(corner), direction.length_squared());
         if along < 0.0 {
@@ -221,7 +222,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Looks at all directions, `first` and its opposite first.
+    /// Searches all directions, starting from `first` and its opposite.
     fn run(&mut self, first: DVec2) -> Option<Stop> {
         self.look(first).err()
     }
@@ -258,7 +259,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let is_whole = one.edges_a + other.edges_a == self.a.edge_count()
             && one.edges_b + other.edges_b == self.b.edge_count();
         if !is_whole {
-            // A shape so thin that opposite directions have one support.
+            // The shape is so thin that opposite directions have the same support point.
             return self.exhaust();
         }
         let mut waiting: ArrayVec<Arc, WAITING> = ArrayVec::new();
@@ -300,7 +301,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let one = Arc { edges_a: done_a, edges_b: done_b, to: middle, ends: [arc.ends[0], depth], ..*arc };
         let (edges_a, edges_b) = (arc.edges_a - done_a, arc.edges_b - done_b);
         let other = Arc { a, edges_a, b, edges_b, from: middle, to: arc.to, ends: [depth, arc.ends[1]] };
-        // The chord that is nearer to the origin first: what it finds may leave out the other.
+        // The chord nearer to the origin first: what it finds may rule out the other.
         let bound = |arc: &Arc| arc.from.perp_dot(arc.to) / (arc.to - arc.from).length_squared().sqrt();
         if bound(&one) < bound(&other) {
             waiting.extend([other, one]);
@@ -349,7 +350,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn edge_a(&mut self, edge: usize, normal: DVec2, corner: DVec2) -> Result<(), Stop> {
         self.meet(normal, corner)?;
         let depth = normal.dot(corner);
-        // Of equals the lowest index, in whichever order they come.
+        // Of equals, the lowest index, in whatever order they come.
         if depth < self.edge_a.0 || depth == self.edge_a.0 && edge < self.edge_a.1 {
             self.edge_a = (depth, edge);
         }

@@ -1,4 +1,4 @@
-//! Searched supports against a linear scan, kernels against the plain definition, and the steps that both take.
+//! Searched supports against a linear scan, kernels against the plain definition, and the number of steps of both.
 
 use super::distance::{Reached, Until, distance};
 use super::few;
@@ -49,8 +49,8 @@ fn on_circle(angle: f64) -> DVec2 {
     (0..quarter as i64).fold(point, |point, _| point.perp())
 }
 
-/// Polygons that a search by angles has trouble with: round, needles, steps that shrink, edges all but parallel,
-/// far from their origin.
+/// Polygons that are hard for a search by angles: round, needles, shrinking steps, edges that are almost parallel, far
+/// from their origin.
 fn outlines(random: &mut Random) -> Vec<Vec2> {
     let count = [17, 20, 33, 64, 300, 4096][random.below(6)];
     let angle = |i: usize| core::f64::consts::TAU * i as f64 / count as f64;
@@ -65,7 +65,7 @@ fn outlines(random: &mut Random) -> Vec<Vec2> {
             .map(|i| on_circle(core::f64::consts::PI * (0..i).fold(1.0, |share, _| 0.8 * share)))
             .collect(),
         4 => {
-            // All but one edge within some 1e-6 rad of each other.
+            // All edges but one within some 1e-6 rad of each other.
             let flat = [1e-4, 1e-7, 1e-20][random.below(3)];
             (0..count)
                 .map(|i| i as f64 / count as f64)
@@ -90,7 +90,7 @@ fn polygon(random: &mut Random) -> Shape2 {
     }
 }
 
-/// Directions where neighbours tie or nearly do, and others.
+/// Directions along which neighbours tie or nearly do, and others.
 fn directions(random: &mut Random, outline: &Outline) -> Vec<DVec2> {
     let mut directions = vec![DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
     for _ in 0..20 {
@@ -138,7 +138,7 @@ fn precision(a: &Shape2, b: &Shape2, offset: DVec2) -> Precision {
     Precision { size, reach, planarity: 0.0, roundings: IN_PLANE[0] + 4.0 }
 }
 
-/// Two polygons of up to so many vertices, B's centre some share of both radii away.
+/// Two polygons of up to `most` vertices, with B's centre at some share of both radii.
 fn pair(random: &mut Random, most: usize) -> ([Shape2; 2], [Turn; 2], DVec2) {
     let mut shape = || loop {
         let points = outlines(random);
@@ -157,7 +157,7 @@ fn pair(random: &mut Random, most: usize) -> ([Shape2; 2], [Turn; 2], DVec2) {
     (shapes, turns, offset)
 }
 
-/// Whichever kernel it is, the best axis is the plain definition's up to rounding, and nothing within the band is
+/// Whichever kernel runs, the best axis is the plain definition's up to rounding, and nothing within the band is
 /// missing.
 #[test]
 fn kernels_find_the_best_axis_of_all() {
@@ -235,7 +235,7 @@ fn round(count: usize) -> Shape2 {
     Polygon::hull_of(&points).unwrap().into()
 }
 
-/// Steps of a yes or no, and of a best axis, of two round polygons whose centres are so far apart.
+/// Steps of a yes or no, and of a best axis, for two round polygons whose centres are `offset` apart.
 fn steps(count: usize, offset: DVec2) -> [usize; 2] {
     let shape = round(count);
     assert_eq!(shape.core().vertices().len(), count);
@@ -252,8 +252,8 @@ fn steps(count: usize, offset: DVec2) -> [usize; 2] {
     [one, other]
 }
 
-/// Counted, not timed: apart and lightly overlapping, sixteen times the vertices cost less than twice the steps; on one
-/// centre, where no edge is any better than another, as many times as many.
+/// Counted, not timed: for pairs apart or lightly overlapping, sixteen times the vertices cost less than twice the
+/// steps; on one centre, where no edge is better than another, sixteen times the steps.
 #[test]
 fn cost_grows_as_the_logarithm_apart_and_as_the_vertices_deep_inside() {
     for offset in [DVec2::new(2.1, 0.3), DVec2::new(1.9, 0.2), DVec2::new(1.2, -0.7), DVec2::new(5.0, 9.0)] {
@@ -268,7 +268,7 @@ fn cost_grows_as_the_logarithm_apart_and_as_the_vertices_deep_inside() {
     }
 }
 
-/// No pair of the largest polygons, however thin, flat, uneven or deep, costs as the product of the vertices.
+/// No pair of the largest polygons, however thin, flat, uneven or deep, costs the product of the vertex counts.
 #[test]
 fn no_pair_of_large_polygons_is_quadratic() {
     let mut random = Random(Rand64::new(43));
@@ -298,7 +298,7 @@ fn no_pair_of_large_polygons_is_quadratic() {
     assert!(large > 50, "{large} large ones, {most} steps an edge");
 }
 
-/// Through every question there is, with no limit on how far apart: the whole outlines lie within the margin.
+/// Asks every question there is, with no limit on the distance: the whole outlines lie within the margin.
 #[test]
 fn no_question_about_large_polygons_is_quadratic() {
     let mut random = Random(Rand64::new(44));
@@ -327,7 +327,7 @@ fn no_question_about_large_polygons_is_quadratic() {
     assert!(large > 10, "{large} large ones, {worst} steps an edge");
 }
 
-/// What parted them still parts them: two supports tell, however large the polygons.
+/// An axis that separated them still does: two supports show it, however large the polygons.
 #[test]
 fn the_hint_of_a_pair_apart_saves_its_search() {
     let mut random = Random(Rand64::new(45));
@@ -343,7 +343,7 @@ fn the_hint_of_a_pair_apart_saves_its_search() {
         let wanted = Wanted { limit: band, band, hint: Hint::NONE, towards_b, precision: &precision };
         let (first, steps) = steps_of(|| separating_axes(&a, &b, &wanted));
         let Outcome::Beyond(separation, hint) = first else { continue };
-        // A direction is kept up to an f32 rounding, which turns a reach by as much.
+        // A stored direction is rounded to f32, which turns the reach by as much.
         if separation < 1e-6 * precision.reach {
             continue;
         }
@@ -356,7 +356,7 @@ fn the_hint_of_a_pair_apart_saves_its_search() {
     assert!(cases > 200 && 2 * hinted < searched, "{cases} cases: {searched} steps, {hinted} with a hint");
 }
 
-/// The best edge, one edge and one vertex after the other: the definition of what lanes do.
+/// The best edge, one edge and one vertex after the other: the definition that the lanes must match.
 fn one_by_one(a: &Outline, b: &Outline) -> (f64, usize) {
     let separation = |edge: usize| {
         let normal = a.outward(edge);
@@ -391,8 +391,8 @@ fn lanes_give_the_bits_of_one_edge_after_the_other() {
     }
 }
 
-/// Symptom: a pebble hundreds of thousands of kilometres away was 1e-45 m from another, and the closest points were
-/// NaN. Cause: out there both ends of an edge of 28 nm round to one point, and a place along it was nought by nought.
+/// Symptom: a pebble hundreds of thousands of kilometres away was reported 1e-45 m from another, with NaN for closest
+/// points. Cause: out there both ends of an edge of 28 nm round to one point, and a place along it was zero over zero.
 #[test]
 fn an_edge_that_rounds_to_a_point_far_out_is_no_place_to_be() {
     let outline = [[-0.552, -0.674], [-0.526, -0.684], [0.258, -0.666], [0.556, -0.364], [-1.0, 1.0]];

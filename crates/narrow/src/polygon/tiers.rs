@@ -1,9 +1,9 @@
-//! Whether two convex shapes share a point, in three tiers, each asked only where the one before cannot tell.
+//! Whether two convex shapes share a point, in three tiers, each asked only where the one before cannot decide.
 //!
 //! ```text
-//! Bound    what is asked first: axes of sharp shapes, a distance in closed form, or as below
-//! Double   an axis that parts them, or corners around a common point, each further off than rounding   (distance)
-//! Exact    integers, from the corners where f64 stopped                                               (exact)
+//! Bound    the first test: axes of sharp shapes, a distance in closed form, or as below
+//! Double   an axis that separates them, or corners around a common point, each by more than rounding   (distance)
+//! Exact    integers, from the corners where f64 stopped                                                (exact)
 //! ```
 
 use super::convex::{Convex, Told};
@@ -14,20 +14,20 @@ use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner};
 use asunder_geometry::glam::DVec2;
 
-/// How two cores lie, as far as the distance iteration came.
+/// How two cores lie, as far as the distance iteration got.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
 pub(super) enum Cores {
-    /// Overlapping, or apart by at most so many metres.
+    /// Overlapping, or at most this far apart, in metres.
     Within(f64),
     /// Two bounds on their distance, with witness points.
     Between(Witness),
 }
 
 impl Convex<'_> {
-    /// Whether the shapes share a point: as [`Convex::probe`] would say, by the cheapest way.
+    /// Whether the shapes share a point: the answer of [`Convex::probe`], in the cheapest way.
     ///
-    /// For polygons of few edges that is all their axes; for others a search for a direction that parts them, or for
-    /// corners around a common point.
+    /// For polygons of few edges that is a test of all axes; for others a search for a direction that separates them,
+    /// or for corners around a common point.
     pub(crate) fn verdict(&self) -> Verdict {
         if self.has_line() {
             return self.told_verdict(&self.told_lines());
@@ -45,13 +45,13 @@ impl Convex<'_> {
                 };
             }
             let verdict = self.conclude(distance(a, b, unit(self.towards_b()), &self.until_told())).0;
-            // What was asked first is the first tier.
+            // The test that is tried first is the first tier.
             let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
             Verdict { tier, ..verdict }
         })
     }
 
-    /// What the first tier's numbers say of the overlap, within their error of zero too.
+    /// The first tier's guess whether they overlap, also where its number is within its error of zero.
     pub(crate) fn guess(&self) -> bool {
         if let [Some(a), Some(b)] = self.lines() {
             return a.separation_from(&b, || true) <= 0.0;
@@ -79,7 +79,7 @@ impl Convex<'_> {
         })
     }
 
-    /// Of shapes of which at least one is a half-plane.
+    /// For shapes of which at least one is a half-plane.
     fn told_lines(&self) -> Told {
         match self.lines() {
             [Some(a), Some(b)] => self.told_half_planes(a, b),
@@ -90,13 +90,13 @@ impl Convex<'_> {
         }
     }
 
-    /// From A's centre to B's, of any length: where a search may begin.
+    /// From A's centre to B's, of any length: a direction to start a search with.
     pub(super) fn towards_b(&self) -> DVec2 {
         let center_b = self.offset + self.turn_b.turn(self.shape_b.center().as_dvec2());
         center_b - self.turn_a.turn(self.shape_a.center().as_dvec2())
     }
 
-    /// For a yes or no a distance is known well enough once it tells whether the radii close the gap.
+    /// For a yes or no, a distance is known well enough once it shows whether the radii close the gap.
     fn until_told(&self) -> Until<'_> {
         let doubt = self.measure.precision.projection();
         Until {
@@ -106,7 +106,7 @@ impl Convex<'_> {
         }
     }
 
-    /// Whether the shapes overlap, where a closed form has told how far apart they are.
+    /// Whether the shapes overlap, given their separation in closed form.
     pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
         let doubt = 2.0 * self.measure.precision.projection();
         if told.separation.abs() > doubt {
@@ -115,8 +115,8 @@ impl Convex<'_> {
         self.exactly(&[])
     }
 
-    /// The second tier and the third, and how the cores lie. `best` is the separation that the first tier found
-    /// best, and its axis.
+    /// The second tier and the third, and how the cores lie. `best` is the best separation that the first tier found,
+    /// and its axis.
     ///
     /// Of the two lower bounds, the iteration's and the best axis', the better one is kept.
     pub(super) fn look_closer(
@@ -142,7 +142,7 @@ impl Convex<'_> {
         (Verdict { tier, ..verdict }, witness)
     }
 
-    /// What the distance iteration has proved, and the third tier where it has proved nothing.
+    /// What the distance iteration has proved; where it has proved nothing, the third tier's answer.
     fn conclude(&self, reached: Reached) -> (Verdict, Cores) {
         let doubt = self.measure.precision.projection();
         let double = |overlapping: bool| Verdict { overlapping, tier: Tier::Double };
@@ -173,12 +173,12 @@ impl Convex<'_> {
     }
 }
 
-/// A direction of unit length; any, of none.
+/// A direction normalised; for none, any unit vector.
 pub(super) fn unit(direction: DVec2) -> DVec2 {
     direction.try_normalize().unwrap_or(DVec2::X)
 }
 
-/// Whether neither core has an inside: they may lie on one line, and have no axis along it.
+/// Whether neither core has an interior: both may lie on one line, and have no candidate axis along it.
 pub(super) fn is_thin(a: &Outline, b: &Outline) -> bool {
     a.is_flat() && b.is_flat()
 }

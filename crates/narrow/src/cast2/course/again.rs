@@ -1,5 +1,5 @@
-//! What comes out of one-sided ground, or through it from behind, and comes back: by a turn alone. What does not turn
-//! touches a segment once.
+//! Parts that come out of one-sided ground, or through it from behind, and come back. Only a turn brings them back: a
+//! part that does not turn touches a segment once.
 
 use super::super::beyond::MOMENTS;
 use super::super::piece::Piece;
@@ -8,22 +8,22 @@ use super::{Course, Touching};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Segment2, Shape2};
 
-/// Halvings of the time between two moments until the middle's crossing of a line is as sharp as f64 has it.
+/// Halvings of the time between two moments until the time at which the middle crosses a line is as sharp as f64 has
+/// it.
 const HALVINGS: u32 = 48;
 
-/// What comes of a part that touches a segment, from one time to another.
+/// What becomes of a part that touches a segment, between two times.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Fate {
     /// Its middle goes through the segment's front.
     Through,
-    /// The two are apart, for certain.
+    /// The two are apart for certain.
     Apart,
     Stays,
 }
 
 impl<'a> Course<'a> {
-    /// The rest of the course, from the first moment after a touch at which the two are apart. Nothing where there is
-    /// none.
+    /// The rest of the course, from the first moment after a touch at which the two are apart; `None` if there is none.
     pub(in super::super) fn once_apart(&self, touching: &Touching) -> Option<Self> {
         if !self.is_turning() {
             return None;
@@ -32,8 +32,9 @@ impl<'a> Course<'a> {
         Some(Self::over(self.stretch, self.pieces, [from, self.times[1]]))
     }
 
-    /// Whether what touches a segment of ground, one of the two, and is in front of it, has its middle go through the
-    /// front of the straight run of it before it is apart from that; in the stretch after this one, perhaps.
+    /// Whether a part that touches a segment of ground (one of the two pieces), from its front, has its middle go
+    /// through the front of the segment's straight run before the two are apart, perhaps only in the stretch after this
+    /// one.
     pub(in super::super) fn falls_through(
         &self,
         (ground, chord): (usize, Segment2),
@@ -89,7 +90,7 @@ impl<'a> Course<'a> {
         moments.take_while(move |&at| at < end).chain([end]).filter(move |&at| at > after)
     }
 
-    /// Whether the two, where they touch, touch by no more than so far, and what counts as touching.
+    /// Whether the two overlap by at most `deep` where they touch, up to what counts as touching.
     pub(in super::super) fn is_no_deeper(&self, touching: &Touching, deep: f64) -> bool {
         self.look(touching.at, touching.axis).is_some_and(|look| look.most >= -deep - self.nearness())
     }
@@ -98,7 +99,7 @@ impl<'a> Course<'a> {
         self.look(at, axis).is_some_and(|look| look.least > self.enough)
     }
 
-    /// Where the middle of the other is, in a body's axes and from its position.
+    /// Where the other's middle is, in a part's axes and from its origin.
     fn middle_from(&self, which: usize, at: f64) -> DVec2 {
         let (turn, origin) = self.place(which, at);
         turn.turn_back(self.center(1 - which, at) - origin)

@@ -1,17 +1,17 @@
-//! Whether circles around two parts meet at all, and when: what is asked before the parts themselves.
+//! Whether circles around two parts meet at all, and when: tested before the parts themselves.
 
 use crate::cast2::piece::Piece;
 use crate::cast2::stretch::Stretch;
 use crate::cast2::sum;
 
-/// When circles around both parts may meet, from when to when.
+/// When circles around both parts may meet: from one time to another.
 pub(in crate::cast2) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64) -> Option<[f64; 2]> {
     let mut radii = 0.0;
     let mut offset = stretch.offset;
     for (which, sign) in [(0, -1.0), (1, 1.0)] {
         let (piece, spin) = (pieces[which], &stretch.spins[which]);
         radii += piece.outer;
-        // A body that turns may have its part anywhere around it.
+        // A body that turns may have its part anywhere around its position.
         if spin.rounding > 0.0 {
             radii += piece.center.length() * (1.0 + 1e-6);
         } else {
@@ -24,7 +24,7 @@ pub(in crate::cast2) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64
     if stretch.is_turning() && passes_by(stretch, pieces) {
         return None;
     }
-    // By the time that B's centre is as far beyond as it was before, all is over: what is longer is not rounded.
+    // Once B's centre is as far behind A's as it was ahead, they have passed: no longer length enters the rounding.
     radii += stretch.lost(0.0) + 32.0 * f64::EPSILON * (sum(stretch.offset) + sum(offset) + radii);
     let (velocity, towards) = (stretch.velocity, offset.dot(stretch.velocity));
     let squared = velocity.length_squared();
@@ -44,8 +44,8 @@ pub(in crate::cast2) fn meeting(stretch: &Stretch, pieces: [&Piece; 2], end: f64
     (first <= last).then_some([first, last])
 }
 
-/// Whether circles that hold both parts, about where they are when a stretch begins, pass each other for certain: who
-/// turns a little is not all around its body.
+/// Whether circles that contain both parts throughout the stretch, about where those are when it begins, certainly pass
+/// each other: a body that turns a little does not sweep all around its position.
 fn passes_by(stretch: &Stretch, pieces: [&Piece; 2]) -> bool {
     let center = |i: usize| stretch.spins[i].turn_at(0.0).turn(pieces[i].center);
     let offset = stretch.offset + (center(1) - center(0));

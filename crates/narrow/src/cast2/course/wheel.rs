@@ -1,15 +1,15 @@
-//! What turns as the circle that it turns in: what tells, where steps lead no further, that a wheel of many sides rolls
-//! on beside another for good.
+//! Parts that turn, as the circles that they sweep: shows, where steps get no further, that a wheel of many sides rolls
+//! past another for good.
 
 use super::{Course, Look};
 use asunder_geometry::glam::DVec2;
 
 impl Course<'_> {
     /// Whether circles around all that turns pass, along the axis of a look, from then on until the end. Circles do not
-    /// turn: along one axis their gap is least at one end or the other.
+    /// turn: along one axis their gap is least at one of the two ends.
     pub(super) fn circles_pass(&self, look: &Look, now: f64) -> bool {
         let is_turning = |which: usize| self.stretch.spins[which].rounding > 0.0;
-        // Where nothing turns, a circle tells no more; a line that turns sweeps over all the plane.
+        // Where nothing turns, a circle shows nothing new; a half-plane that turns sweeps over all of the plane.
         if !self.stretch.is_turning() || (0..2).any(|which| is_turning(which) && self.pieces[which].is_line())
         {
             return false;

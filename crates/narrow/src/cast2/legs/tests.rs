@@ -38,7 +38,7 @@ fn cloud(numbers: &mut Numbers, count: u64, about: DVec2, half: DVec2) -> Shape2
     Compound2::new((0..count).map(|_| part()).collect::<Vec<_>>()).unwrap().into()
 }
 
-/// So many boxes and balls in rows, in turns, about the origin.
+/// Boxes and balls in turn, in rows about the origin.
 fn rows(counts: [u32; 2]) -> Shape2 {
     let kinds =
         [Shape2::from(Circle::new(0.4).unwrap()), Rect::from_half_extents(Vec2::splat(0.4)).unwrap().into()];
@@ -50,7 +50,8 @@ fn rows(counts: [u32; 2]) -> Shape2 {
     Compound2::new(parts.collect::<Vec<_>>()).unwrap().into()
 }
 
-/// What all pairs of parts say within a stretch, one after the other, of two bodies that do not touch at the start.
+/// The answer of all pairs of parts within a stretch, one after the other, for two bodies that do not touch at the
+/// start.
 fn plainly(pair: &Pair2, stretch: &Stretch) -> Option<Impact2> {
     let (mut first, mut end) = (None, 1.0);
     for_pieces(pair.shape_a, |a| {
@@ -146,7 +147,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
     assert!(furthest > 0.5 && count > 800, "the bound is no empty one: {furthest}, {count}");
 }
 
-/// Steps a part of bodies of these that fly past and into each other while one or both turn so far.
+/// Steps per part, for bodies of such rows that fly past and into each other while one or both turn by `turn`.
 fn steps_a_part(rows_of: [[u32; 2]; 2], turn: f64) -> usize {
     let mut numbers = Numbers::new(9104);
     let bodies = rows_of.map(rows);

@@ -1,4 +1,4 @@
-//! Rays into chains: by the boxes that they meet, nearest first.
+//! Rays into chains: segment by segment, in the order in which their boxes are met.
 
 use super::{Asked, Beam};
 use crate::counted::count_step;
@@ -6,7 +6,8 @@ use crate::impact2::RayHit2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Pose2, Ray2, Run, Shape2};
 
-/// How much of a normal must lie along a run's for the run to have been crossed: a ray along a segment meets its end.
+/// Cosine between a hit's normal and the run's from which on the ray crosses the run; a ray along a segment meets its
+/// end.
 const CROSSED: f64 = 0.5;
 
 pub(super) fn into_chain(
@@ -29,7 +30,7 @@ pub(super) fn into_chain(
     first
 }
 
-/// What a ray starts on comes first, and of equals the first segment.
+/// Of equals, a segment that the ray starts on comes first, then the lowest number.
 fn comes_before(one: &RayHit2, other: &RayHit2) -> bool {
     let key = |hit: &RayHit2| (!hit.inside, hit.part);
     one.distance < other.distance || (one.distance == other.distance && key(one) < key(other))
@@ -64,7 +65,7 @@ fn front(chain: &Chain, run: &Run) -> Option<DVec2> {
 }
 
 impl Beam {
-    /// How many metres along a ray a box in the same axes begins at least; nothing where the ray misses it for certain.
+    /// A lower bound on where the ray enters a box in the same axes, in metres; `None` if it certainly misses.
     fn reaches(&self, bounds: &Aabb2) -> Option<f64> {
         let (min, max) = (bounds.min.as_dvec2() - self.origin, bounds.max.as_dvec2() - self.origin);
         let middle = (min + max) * 0.5;
@@ -77,7 +78,7 @@ impl Beam {
         if along < -reach * (1.0 + 1e-12) {
             return None;
         }
-        // By its slabs, which is nearer than its corners along the ray.
+        // By its slabs: a closer bound than by its corners along the ray.
         let enters = |middle: f64, half: f64, unit: f64| {
             if unit == 0.0 { 0.0 } else { (middle * unit.signum() - half) / unit.abs() }
         };

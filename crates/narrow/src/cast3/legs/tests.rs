@@ -32,7 +32,7 @@ fn cloud(numbers: &mut Numbers, count: u64, about: DVec3, half: DVec3) -> Shape3
     Compound3::new((0..count).map(|_| part()).collect::<Vec<_>>()).unwrap().into()
 }
 
-/// So many boxes and balls in rows, in turns, about the origin.
+/// Boxes and balls in turn, in rows about the origin.
 fn rows(counts: [u32; 3]) -> Shape3 {
     let kinds = [
         Shape3::from(Sphere::new(0.4).unwrap()),
@@ -47,13 +47,13 @@ fn rows(counts: [u32; 3]) -> Shape3 {
     Compound3::new(parts.collect::<Vec<_>>()).unwrap().into()
 }
 
-/// A motion by a displacement with a turn of up to so many radians about any axis.
+/// A motion by a displacement, with a turn of up to `most` radians about a random axis.
 fn motion(numbers: &mut Numbers, from: &Pose3, way: DVec3, most: f64) -> Motion3 {
     let turn = (numbers.vector().normalize() * most * numbers.number()).as_vec3();
     Motion3::of_velocities(from, way, turn, 1.0).unwrap()
 }
 
-/// What all pairs of parts say, one after the other, of two bodies that do not touch at the start.
+/// The answer of all pairs of parts, one after the other, for two bodies that do not touch at the start.
 fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
     let mut first: Option<Impact3> = None;
     let mut ask = |a: Part, b: Part| {
@@ -153,7 +153,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
     assert!(furthest > 0.5 && count > 800, "the bound is no empty one: {furthest}, {count}");
 }
 
-/// Steps a part of bodies of these that fly past and into each other while one or both turn so far.
+/// Steps per part, for bodies of such rows that fly past and into each other while one or both turn by `turn`.
 fn steps_a_part(rows_of: [[u32; 3]; 2], turn: f32) -> usize {
     let mut numbers = Numbers::new(9103);
     let bodies = rows_of.map(rows);

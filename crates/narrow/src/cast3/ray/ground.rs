@@ -2,24 +2,23 @@
 //!
 //! ```text
 //! for each triangle whose box the ray meets, nearest first, until boxes are beyond the nearest hit
-//!   its projection along the ray is clearly beside zero:              no          (Projection::side)
-//!   zero is clearly within it, and nothing was hit yet:               where its plane is met
-//!   else: clearly beside it, behind the origin or beyond the hit:     no          (passes)
-//!   else:                                                             what the triangle alone answers
+//!   zero is certainly outside its projection along the ray:               no      (Projection::side)
+//!   zero is certainly inside it, and nothing was hit yet:                 where the ray meets its plane
+//!   else: certainly beside it, behind the origin or beyond the hit:       no      (passes)
+//!   else:                                                                 test the triangle by itself
 //! ```
-//! Watertight: a triangle is hit by what passes within rounding of it, and is not passed over here unless the ray is
+//! Watertight: a triangle by itself is hit by what passes within rounding of it, and is skipped here only if the ray is
 //! twice as far beside it; so a ray through an edge that two triangles share, or a vertex, hits at least one of them.
 //!
-//! What makes it fast, in instructions of a ray on 20,000 triangles of rolling land that took 3970 before and takes
-//! 2530:
+//! What makes it fast, in instructions of a ray on 20,000 triangles of rolling land, 3970 before and 2530 now:
 //!
-//! 1. the ray is turned into the ground's axes, once, and not the triangles out of them; a triangle that is missed
-//!    costs no root and no quotient;
-//! 2. corners come out of the tree's leaves, not by numbers out of tables: on a million triangles that wait for memory
+//! 1. the ray is turned into the ground's axes, once, and not the triangles out of them; a missed triangle costs no
+//!    root and no quotient;
+//! 2. corners come out of the tree's leaves, not by index out of tables: on a million triangles that wait for memory
 //!    was a third of the time;
-//! 3. a triangle that is crossed for certain is asked neither for the sphere around it nor for its edges again (350);
-//! 4. what is written by parts and read whole at once waits a dozen cycles: the projection and the ray are made in
-//!    registers, and the visitor is called in one place, so that it is compiled into the walk (a quarter of the time,
+//! 3. a triangle that is certainly crossed needs no test of its bounding sphere, nor of its edges again (350);
+//! 4. a value written in parts and read whole at once stalls a dozen cycles: the projection and the ray are built in
+//!    registers, and the visitor is called in one place, so that it is inlined into the walk (a quarter of the time,
 //!    and few instructions).
 
 use super::planes::{self, EDGE_ON};
@@ -35,7 +34,7 @@ struct Local {
     origin: DVec3,
     way: DVec3,
     squared: f64,
-    /// How far a point on it may be beside its place, in metres: at the origin, and more for each length of the way.
+    /// Rounding error of a point on it, in metres: at the origin, and more for each length of the way.
     doubt: [f64; 2],
     is_one_sided: bool,
     projection: Projection,
@@ -46,7 +45,7 @@ impl Cast<'_> {
     pub(super) fn over(&self, ground: Ground, basis: &Basis3, limit: f64) -> Option<RayHit3> {
         let size = f64::from(self.shape.outer_radius()) + length(self.shape.center().as_dvec3());
         let pace = length(self.way);
-        // Twice what any triangle takes for itself.
+        // Twice the slack that any triangle by itself has.
         let doubt = [128.0 * f64::EPSILON * (length(self.from) + size), 128.0 * f64::EPSILON * pace];
         let (origin, way) = (basis.turn_back(self.from), basis.turn_back(self.way));
         let local = Local {
@@ -57,7 +56,7 @@ impl Cast<'_> {
             is_one_sided: ground.is_one_sided(),
             projection: Projection::new(origin, way, length(self.from) + size),
         };
-        // Boxes are met early and late enough for what their triangles give away.
+        // Boxes are grown by the slack of their triangles.
         let grown = Vec3::splat((4.0 * doubt[0]) as f32);
         let mut first: Option<RayHit3> = None;
         let mut within = limit;
@@ -66,12 +65,13 @@ impl Cast<'_> {
             if side == Side::Beside {
                 return within;
             }
-            // What is crossed for certain, and is the first, answers at once; of nothing else a sphere is asked.
+            // A triangle that is certainly crossed, as the first, is tested at once: only for such is no bounding
+            // sphere needed.
             let is_plain = side == Side::Inside && first.is_none() && !local.is_one_sided;
             if is_plain || !local.passes(corners, within) {
                 let triangle = Triangle3::known(corners);
                 let hit = self.on(triangle, basis, within, side == Side::Inside);
-                // Of equals, what it starts on, then the lowest number.
+                // Of equals, one that the ray starts on, then the lowest number.
                 let place = |hit: &RayHit3| (hit.distance, !hit.inside, hit.part);
                 if let Some(hit) = hit.map(|hit| RayHit3 { part: number, ..hit })
                     && first.is_none_or(|known| place(&hit) < place(&known))
@@ -85,7 +85,7 @@ impl Cast<'_> {
         first
     }
 
-    /// What a triangle alone answers. Where the ray's line crosses it, it meets the sphere around it, too.
+    /// The hit on a triangle by itself. If the ray's line crosses the triangle, it also meets its bounding sphere.
     #[inline(always)]
     fn on(&self, triangle: Triangle3, basis: &Basis3, limit: f64, is_crossed: bool) -> Option<RayHit3> {
         if is_crossed {
@@ -106,7 +106,7 @@ impl Cast<'_> {
 }
 
 impl Local {
-    /// Whether the ray certainly passes by a triangle, or through it from behind where that is no hindrance.
+    /// Whether the ray certainly passes by a triangle, or through a one-sided one from behind.
     #[inline(always)]
     fn passes(&self, corners: [Vec3; 3], limit: f64) -> bool {
         let (a, b, c) = (corners[0].as_dvec3(), corners[1].as_dvec3(), corners[2].as_dvec3());
@@ -130,7 +130,8 @@ impl Local {
             return true;
         }
         let at = from + self.way * distance;
-        // So far beside an edge, over how steep the ray is: both sides are squares, times the area's and the pace's.
+        // Beside an edge by more than the error over the ray's steepness: both sides squared, times the area's and the
+        // pace's.
         let off = off * area * self.squared;
         let is_beside = |edge: DVec3, at: DVec3| {
             let inwards = normal.dot(edge.cross(at));

@@ -1,4 +1,4 @@
-//! Rays against what planes bound.
+//! Rays against shapes that planes bound.
 
 use super::{Line, Meeting};
 use asunder_geometry::glam::DVec3;
@@ -7,7 +7,7 @@ use asunder_geometry::{Basis3, Core3, Cuboid, HalfSpace, Hull, Triangle3};
 /// Sine of the angle to a triangle's plane below which it counts as seen edge on.
 pub(super) const EDGE_ON: f64 = 1e-6;
 
-/// Between the planes of which pairs the ray is: a box by slabs.
+/// A box by slabs: the ray is inside while it is between all three pairs of planes.
 #[inline(always)]
 pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     let half = cuboid.half_extents().as_dvec3().to_array();
@@ -15,8 +15,8 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     let (mut enter, mut leave, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
     let mut beyond = f64::NEG_INFINITY;
     for axis in 0..3 {
-        // Seen from where the ray comes: at so much before the middle, and as far again behind it. Along the slab
-        // both are infinite, or NaN on a face, which bounds nothing.
+        // The ray starts `before` the middle of the slab, along its direction. For a ray along the slab both quotients
+        // are infinite, or NaN on a face, which bounds nothing.
         let (before, inverse) = (-origin[axis].copysign(origin[axis] * way[axis]), 1.0 / way[axis].abs());
         let (first, last) = ((before - half[axis]) * inverse, (before + half[axis]) * inverse);
         face = if first > enter { axis } else { face };
@@ -35,24 +35,24 @@ pub(super) fn cuboid(line: &Line, basis: &Basis3, cuboid: &Cuboid) -> Meeting {
     Meeting::At(enter, axis * -1.0_f64.copysign(closing), line.error(enter, closing.abs(), 0.0))
 }
 
-/// Up to which share of its outer radius a hull's planes may reach beyond its rims without the face being looked at:
-/// 2^-18, far above what rounding makes of what is not thin.
+/// Up to this share of its outer radius a hull's planes may reach beyond its rims without a test of the face: 2^-18,
+/// far above what rounding makes of hulls that are not thin.
 const BEYOND_RIMS: f64 = 1.0 / 262_144.0;
 
-/// How many times the inner radius the outer one may be for the error to hold as it is: it is four times what faces are
-/// off.
+/// How many times the inner radius the outer one may be for the error to hold as it is: that is four times what faces
+/// are off by.
 const COMPACT: f64 = 4.0;
 
-/// Inside of all planes: the ray enters some and leaves others.
+/// A convex hull as an intersection of half-spaces: the ray enters some planes and leaves others.
 ///
-/// Faces that were merged are not flat, and the planes are those of their highest corners, so that beyond a sharp edge
-/// the planes hold more than the hull, and two of faces back to back an endless slab. How much more: be r the radius of
+/// Faces that were merged are not flat, and the planes are those of their highest corners. So beyond a sharp edge the
+/// planes contain more than the hull, and two faces back to back an endless slab. How much more: let r be the radius of
 /// a ball inside the hull, R that of one around it, both about its centre c, and q how far corners of a face lie below
-/// its plane at most, with rounding. Where the way from c to a point that the planes hold leaves the hull, it is no
-/// more than q below some plane; c is at least r below that, and the point not above it. So at most the share q / r of
-/// the way is outside of the hull, and the point no further from it than R q / r. Where that would be too much, the
-/// face that is entered is looked at: over a face, the hull is at most q below its plane, however sharp the edges are.
-/// What enters beside it goes by steps.
+/// its plane at most, with rounding. Take a point inside all planes. Where the way from c to it leaves the hull, it is
+/// no more than q below some plane; c is at least r below that plane, and the point not above it. So at most the share
+/// q / r of the way is outside the hull, and the point no further from it than R q / r. Where that would be too much,
+/// the face that is entered is tested: over a face, the hull is at most q below its plane, however sharp the edges are.
+/// A ray that enters beside the face goes by steps.
 pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Meeting {
     let (origin, way) = (basis.turn_back(line.origin), basis.turn_back(line.way));
     let (mut enter, mut leave, mut furthest) = (f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY);
@@ -72,7 +72,7 @@ pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Me
         }
     }
     if furthest <= line.doubt {
-        // Faces prove nothing inwards, a sphere inside does.
+        // Faces prove nothing about the inside; a sphere inside does.
         let from_center = (origin - core.center().as_dvec3()).length();
         let is_deep = from_center + line.doubt < f64::from(core.inner_radius());
         return if is_deep { Meeting::Inside } else { Meeting::Unclear };
@@ -92,8 +92,8 @@ pub(super) fn hull(line: &Line, basis: &Basis3, hull: &Hull, core: &Core3) -> Me
     Meeting::At(enter, basis.turn(face), error.min(2.0 * outer))
 }
 
-/// Whether the ray is on the plane of a face up to rounding at that distance, over the face, and no nearer to its sides
-/// than that.
+/// Whether the ray, at that distance, is on the plane of a face up to rounding, over the face, and further from its
+/// edges than rounding.
 #[inline(never)]
 fn is_over_face(line: &Line, basis: &Basis3, core: &Core3, distance: f64) -> bool {
     let (at, doubt) = (basis.turn_back(line.at(distance)), line.doubt_at(distance).0);
@@ -110,7 +110,7 @@ fn is_over_face(line: &Line, basis: &Basis3, core: &Core3, distance: f64) -> boo
     })
 }
 
-/// One plane.
+/// A half-space: one plane.
 #[inline(always)]
 pub(super) fn half_space(line: &Line, basis: &Basis3, half_space: &HalfSpace) -> Meeting {
     let normal = basis.turn(half_space.unit_normal());
@@ -119,14 +119,14 @@ pub(super) fn half_space(line: &Line, basis: &Basis3, half_space: &HalfSpace) ->
         return if height < -line.doubt { Meeting::Inside } else { Meeting::Unclear };
     }
     let distance = height / pace;
-    // Away from it or along it; so nearly along it that it is out of range.
+    // The ray leads away from the plane or along it, or so nearly along it that the hit is out of range.
     if pace <= 0.0 || !distance.is_finite() {
         return Meeting::Never;
     }
     Meeting::At(distance, normal, line.error(distance, pace, 0.0))
 }
 
-/// Where it meets the triangle's plane, if that is on the inner side of all edges up to rounding.
+/// Where the ray meets the triangle's plane, if that point is on the inner side of all edges up to rounding.
 pub(super) fn triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
     let crossing = match Crossing::new(line, basis, triangle) {
         Ok(crossing) => crossing,
@@ -145,7 +145,7 @@ pub(super) fn triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Mee
     crossing.meeting()
 }
 
-/// The same of one whose edges the ray is within for certain.
+/// The same for a triangle that the ray certainly crosses.
 #[inline]
 pub(super) fn crossed_triangle(line: &Line, basis: &Basis3, triangle: &Triangle3) -> Meeting {
     match Crossing::new(line, basis, triangle) {
@@ -157,7 +157,7 @@ pub(super) fn crossed_triangle(line: &Line, basis: &Basis3, triangle: &Triangle3
 /// Where a ray meets a triangle's plane.
 struct Crossing {
     distance: f64,
-    /// The front's.
+    /// The front's normal.
     normal: DVec3,
     is_from_front: bool,
     error: f64,

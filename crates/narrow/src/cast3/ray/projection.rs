@@ -1,18 +1,18 @@
-//! Triangles as a ray sees them.
+//! Triangles as seen along a ray.
 //!
-//! Projected along the ray into the coordinate plane that it is steepest to, a triangle is crossed by the ray's line
-//! where its projection holds zero: where zero is on the same side of all three edges (Woop, Benthin and Wald,
-//! "Watertight ray/triangle intersection", 2013). In f64, of corners in f32, with a slack that is far above rounding:
-//! what is within it is [`Side::Unclear`].
+//! All is projected along the ray into the coordinate plane that the ray is steepest to, where the ray's line is zero.
+//! The line crosses a triangle if the projection contains zero, which then is on the same side of all three edges
+//! (Woop, Benthin and Wald, "Watertight ray/triangle intersection", 2013). In f64, from corners in f32, with a slack
+//! far above rounding: what is within the slack is [`Side::Unclear`].
 
 use asunder_geometry::glam::{DVec3, Vec3};
 
-/// The slack, in squares of the reach.
+/// The slack of an edge function, in squares of the reach.
 ///
-/// A place in the plane is right to 8 roundings of the reach R, so a span between two, each within 4 R of zero, to 64
-/// of R^2. A triangle alone takes what passes within 128 roundings of R, and its box what passes within 512: an edge is
-/// no longer than 2 R, and along a ray that is no more than the root of 3 steeper, they are 1800. The rest is to spare:
-/// on a mesh a kilometre wide the slack is 2e-6 m^2.
+/// A place in the plane is right to 8 roundings of the reach R, so the span of two, each within 4 R of zero, to 64 of
+/// R^2. A triangle by itself takes what passes within 128 roundings of R, and its box what passes within 512: an edge
+/// is no longer than 2 R, and along a ray at most the root of 3 steeper, so these are 1800. The rest is to spare: on a
+/// mesh a kilometre wide the slack is 2e-6 m^2.
 const SLACK: f64 = 8192.0 * f64::EPSILON;
 
 /// On which side of a triangle's edges a ray's line is.
@@ -28,21 +28,21 @@ pub(super) enum Side {
 /// A coordinate plane, into which points are projected along a ray: the ray is a point there, at zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Projection {
-    /// What each coordinate adds to both places in the plane.
+    /// What each coordinate contributes to the two coordinates in the plane.
     along: [[f64; 2]; 3],
-    /// Where the ray's origin would be.
+    /// The projection of the ray's origin.
     origin: [f64; 2],
-    /// Twice an area: more than rounding makes of that between zero and an edge, and what an edge within rounding
-    /// spans.
+    /// Twice an area: more than the rounding of the one between zero and an edge, and than the one that an edge within
+    /// rounding of the ray spans.
     slack: f64,
 }
 
 impl Projection {
-    /// `reach` is no less than the distance of ray's origin from any point, nor than that between two of them halved.
+    /// `reach` is at least the distance of the ray's origin from any point, and half of that between any two points.
     #[inline(always)]
     pub(super) fn new(origin: DVec3, way: DVec3, reach: f64) -> Self {
         let size = way.abs();
-        // Any two of a right-handed three stay as they are: only that signs agree counts.
+        // Any two coordinates of a right-handed three may stay as they are: only whether signs agree counts.
         let along = if size.x >= size.y && size.x >= size.z {
             [[-way.y / way.x, -way.z / way.x], [1.0, 0.0], [0.0, 1.0]]
         } else if size.y >= size.z {
@@ -107,7 +107,7 @@ mod tests {
         let mut int = |most: i128| i128::from(random.rand_range(0..2 * most as u64 + 1)) - most;
         let (mut beside, mut inside, mut unclear) = (0, 0, 0);
         for round in 0..60_000_u32 {
-            // In steps of 2^-22 of what corners are told in.
+            // In steps of 2^-22 of the corners' unit.
             let step = 1_i128 << 22;
             let far = if round % 7 == 0 { [int(1 << 22) & !7, int(1 << 22) & !7, 0] } else { [0; 3] };
             let size = [1 << 22, 1 << 16, 1 << 10][round as usize % 3];

@@ -11,8 +11,8 @@ pub(super) fn sphere(line: &Line, radius: f64) -> Meeting {
         .unwrap_or_else(|| enter(line, line.origin, radius))
 }
 
-/// What is known of a ray that starts so far from a core, as a square, and not certainly outside; nothing of one
-/// that is.
+/// For a ray that starts at this distance from a core, given as a square: whether inside or unclear; `None` if it
+/// certainly starts outside.
 #[inline(always)]
 fn is_outside(squared: f64, radius: f64, doubt: f64) -> Option<Meeting> {
     let (outer, inner) = (radius + doubt, radius - doubt);
@@ -22,8 +22,8 @@ fn is_outside(squared: f64, radius: f64, doubt: f64) -> Option<Meeting> {
     Some(if inner > 0.0 && squared < inner * inner { Meeting::Inside } else { Meeting::Unclear })
 }
 
-/// Where a ray from outside, at `from` as seen from its centre, enters a sphere, if it does. The foot of the
-/// perpendicular comes first: nothing cancels that the distance did not lose.
+/// Where a ray from outside, at `from` as seen from a sphere's centre, enters the sphere, if it does. By the foot of
+/// the perpendicular: nothing cancels beyond what the distance has lost.
 #[inline(always)]
 fn enter(line: &Line, from: DVec3, radius: f64) -> Meeting {
     let inverse = 1.0 / line.squared;
@@ -43,15 +43,15 @@ fn enter(line: &Line, from: DVec3, radius: f64) -> Meeting {
     Meeting::At(distance, (foot - line.way * half_chord) / radius, error)
 }
 
-/// By how much half a chord, given with its square, is off where the circle's line is by `doubt`: the root of what
-/// is off.
+/// The error of half a chord, given with its square, if the circle's line is off by `doubt`: the root of the error of
+/// the square.
 #[inline(always)]
 fn off_by(doubt: f64, radius: f64, (squared, half_chord): (f64, f64)) -> f64 {
     let off = doubt * (2.0 * radius + doubt);
     if squared > off { off / half_chord } else { (2.0 * off).sqrt() }
 }
 
-/// A capsule: its cylinder without ends, and where the ray enters that beyond an end, the sphere there.
+/// A capsule: its infinite cylinder; where the ray enters that beyond an end, the sphere at that end.
 #[inline(always)]
 pub(super) fn capsule(line: &Line, basis: &Basis3, capsule: &Capsule3) -> Meeting {
     let radius = f64::from(capsule.radius());

@@ -7,7 +7,7 @@ use crate::pair3::Pair3;
 use asunder_geometry::glam::{DQuat, DVec3, Vec2, Vec3};
 use asunder_geometry::{HeightField, Hull, Pose3, Ray3, Shape3, TriMesh};
 
-/// So many points of a circle about y, in order around.
+/// `count` points of a circle about y, in order.
 fn ring(count: usize) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |i| {
         // By the tangent of half the angle, a quarter after the other.
@@ -23,7 +23,7 @@ fn ring(count: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Corners of a kind of thin shape.
+/// Corners of one of several kinds of thin shapes.
 fn thin(kind: u32, numbers: &mut Numbers) -> Vec<DVec3> {
     let tenths = 1 + numbers.below(16) as i32;
     // From 0.3 down to 1e-8.
@@ -31,7 +31,7 @@ fn thin(kind: u32, numbers: &mut Numbers) -> Vec<DVec3> {
     let count = 3 + numbers.below(30) as usize;
     let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)) - 0.5;
     match kind {
-        // Tiles, in one plane but for rounding.
+        // Tiles, in one plane up to rounding.
         0 => (0..4 + count % 5).map(|_| numbers.vector() * DVec3::new(1.0, 0.0, 1.0)).collect(),
         1 => ring(count).collect(),
         // Plates, boxes and needles.
@@ -48,7 +48,7 @@ fn thin(kind: u32, numbers: &mut Numbers) -> Vec<DVec3> {
     }
 }
 
-/// A place on or in the hull, well away from the rim of all corners.
+/// A place on or in the hull, well inside the rim of all corners.
 fn place_in(vertices: &[Vec3], numbers: &mut Numbers) -> DVec3 {
     let weights: Vec<f64> = vertices.iter().map(|_| 1.125 + numbers.number()).collect();
     let sum: f64 = weights.iter().sum();
@@ -76,7 +76,7 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
                 center + numbers.vector() * outer * 1.1
             };
             let way = (numbers.vector() * size).as_vec3();
-            // So that what is aimed at is passed but for rounding.
+            // So that the ray passes its target up to rounding.
             let origin = target - way.as_dvec3() * (4.0 * outer / f64::from(way.length()));
             let Ok(ray) = Ray3::new(origin, way) else { continue };
             let hit = cast_ray3(&shape, &Pose3::IDENTITY, &ray, f64::INFINITY);
@@ -92,7 +92,7 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
             let rounding = 1e-14 * (origin.length() + outer);
             let beside = beside.map_or(0.0, |closest| f64::from(closest.distance - closest.error));
             assert!(beside <= f64::from(hit.error) + rounding, "{beside} {told}");
-            // Nor is that said of what may be anywhere.
+            // Nor is the error so large that the hit might be anywhere.
             let steep = way.as_dvec3().normalize().dot(hit.normal.as_dvec3()).abs();
             assert!(f64::from(hit.error) * steep <= 1e-5 * outer, "{told}");
         }

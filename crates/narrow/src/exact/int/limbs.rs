@@ -174,7 +174,7 @@ pub(super) fn compare(a: &[u64], b: &[u64]) -> Ordering {
     a.len().cmp(&b.len()).then_with(|| a.iter().rev().cmp(b.iter().rev()))
 }
 
-/// How many limbs are left without the zeros on top.
+/// The number of limbs without leading zeros.
 #[inline]
 pub(super) fn trimmed(limbs: &[u64]) -> usize {
     limbs.iter().rposition(|&limb| limb != 0).map_or(0, |top| top + 1)

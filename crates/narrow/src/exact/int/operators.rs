@@ -1,4 +1,4 @@
-//! `+`, `-`, `*`, order and conversions of [`Int`]; the work is done beside the type.
+//! `+`, `-`, `*`, order and conversions of [`Int`]; the arithmetic is in the module of the type.
 
 use super::{INLINE, Int, limbs};
 use core::cmp::Ordering;

@@ -1,12 +1,12 @@
-//! Limbs of a number that is too long to be held in place, in memory that is used again.
+//! Limbs of a number too long to be held in place, in memory that is reused.
 //!
-//! A heap of crates that touch exactly asks long questions each frame: with memory of its own for each number,
-//! every such question went to the allocator some dozen times. Each thread keeps what its numbers leave behind.
+//! A heap of crates that touch exactly asks long questions each frame: with memory of its own for each number, every
+//! such question called the allocator some dozen times. Each thread keeps the memory that its numbers free.
 
 use core::cell::RefCell;
 use core::ops::{Deref, DerefMut};
 
-/// Rows that a thread keeps, at most: more numbers than one question has at once.
+/// The most rows that a thread keeps: more numbers than one question has at once.
 const MOST_KEPT: usize = 64;
 
 thread_local! {
@@ -18,9 +18,9 @@ thread_local! {
 pub(super) struct Spill(Vec<u64>);
 
 impl Spill {
-    /// So many zeros.
+    /// This many zeros.
     pub(super) fn zeros(len: usize) -> Self {
-        // None where the thread is about to end.
+        // Fails where the thread is about to end.
         let kept = KEPT.try_with(|kept| kept.try_borrow_mut().ok()?.pop());
         let mut limbs = kept.ok().flatten().unwrap_or_default();
         limbs.clear();
@@ -28,7 +28,7 @@ impl Spill {
         Self(limbs)
     }
 
-    /// These limbs, and so many zeros above them.
+    /// These limbs, and `more` zeros above them.
     pub(super) fn copied(limbs: &[u64], more: usize) -> Self {
         let mut copy = Self::zeros(limbs.len() + more);
         if let Some(low) = copy.0.get_mut(..limbs.len()) {

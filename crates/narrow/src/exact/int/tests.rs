@@ -1,5 +1,5 @@
-//! Every operation against num-bigint, on numbers of 0 to 40 limbs: noise, ones only (carries through), single bits,
-//! small numbers far up.
+//! Every operation against num-bigint, on numbers of 0 to 40 limbs: random limbs, all ones (carries run through),
+//! single bits, small numbers shifted far up.
 
 use super::*;
 use num_bigint::{BigInt, BigUint, Sign};
@@ -14,7 +14,7 @@ impl Numbers {
         Self(Rand64::new(seed))
     }
 
-    /// Short ones are as frequent as they are in use; the boundary of what is held in place is met often.
+    /// Short lengths are as frequent as in use; lengths about the boundary of what is held in place occur often.
     fn len(&mut self) -> usize {
         match self.0.rand_range(0..8) {
             0..4 => self.0.rand_range(0..6) as usize,
@@ -60,7 +60,7 @@ impl Numbers {
     }
 }
 
-/// Equal in value, and in the one form that this value may have.
+/// Equal in value, and in the only representation of that value.
 #[track_caller]
 fn assert_same(int: &Int, big: &BigInt) {
     let limbs: Vec<u64> = big.magnitude().iter_u64_digits().collect();
