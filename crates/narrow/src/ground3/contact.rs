@@ -16,7 +16,7 @@
 //!     a cuboid overlaps it, and the axis of least depth is rejected: no kernel is called          (axes)
 //!     a cuboid is across a gap: closest points in closed form; if rejected, no kernel either      (gap)
 //!     else the kernels for part and triangle: their axis, if the feature's neighbours accept it   (meeting)
-//!         else the triangle's normal, unless a contact with other triangles frees the part of it  (refused)
+//!         else the triangle's normal, unless a contact with other triangles frees it              (refused)
 //!   where the part penetrates a flat patch: deeper points over the rest of that                   (whole, rim)
 //!   contact points join the group of their normal                                                 (groups)
 //!   overlap, yes or no: a segment of the part crosses a triangle, or all of it is above; else exactly

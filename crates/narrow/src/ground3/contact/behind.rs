@@ -1,10 +1,10 @@
 //! Triangles of two-sided ground that are seen from behind, across a gap. They are processed after all others, but
-//! before those whose axis was rejected (`refused`): the normals of the latter are only substitutes, and would seem to
-//! explain these.
+//! before those whose axis was rejected (`refused`): the normals of the latter are only substitutes, and would hide
+//! these wrongly.
 //!
 //! ```text
-//! a triangle is hidden, and skipped, by a normal found so far that ground around one of its corners has, and that is nearly
-//!     square to its own or further off: if a move along it, by the depth found, leaves the triangle below the part
+//! a triangle is hidden, and skipped, by a normal found so far that ground around one of its corners has, nearly square
+//!     to its own or further off, if a move along that normal, by the depth found, leaves the triangle below the part
 //! the others are processed as if they had not waited
 //! ```
 //! A crate on a step, a hair deep in the tread, has a strip of the riser in front of it, as high as it is deep, seen

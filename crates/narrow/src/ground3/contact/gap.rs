@@ -4,8 +4,8 @@
 //! ```text
 //! in the cuboid's axes, for each edge of the triangle: the point nearest to the cuboid                    (nearest_on)
 //! the cuboid's vertex that is lowest over the triangle's plane, if its foot is in the triangle
-//! the nearest of these four is checked: all vertices projected on the axis between its two points must show no less than
-//!     their distance up to rounding; else the kernels are called
+//! the nearest of these four is checked: all vertices projected on the axis between its two points must show no less
+//!     than their distance up to rounding; else the kernels are called
 //! ground rejects that axis: no contact, and the closest points are all there is to keep; else the kernels make points
 //! ```
 //! A triangle is nearest to a cuboid on its rim, or under the cuboid's lowest feature. If that feature is an edge or a
