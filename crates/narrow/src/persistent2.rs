@@ -46,7 +46,7 @@ use asunder_geometry::{Pose2, Shape2};
 pub struct Persistent2 {
     manifold: Manifold2,
     terms: Terms,
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose2; 2],
 }
 
@@ -304,7 +304,7 @@ fn footing_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> Option<Foot
     Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
-/// A turn: where it takes the x axis, of unit length.
+/// A rotation: the image of the x axis, of unit length.
 #[derive(Clone, Copy)]
 struct Turned {
     x: DVec2,

@@ -31,7 +31,7 @@ enum Extent {
     Cuboid(DVec3),
 }
 
-/// A convex part in the ground's axes: everything within a radius of some points.
+/// A convex part in the ground's axes: everything within a radius of a core.
 pub(crate) struct Corners {
     extent: Extent,
     radius: f64,
@@ -69,7 +69,7 @@ struct Along {
 }
 
 impl Along {
-    /// By how much the part is beyond the triangle, on either side.
+    /// By how much the part is beyond the triangle, on the better of both sides.
     fn gap(&self) -> f64 {
         let (above, below) = (self.part[0] - self.triangle[1], self.triangle[0] - self.part[1]);
         if above > below { above } else { below }
@@ -171,7 +171,7 @@ impl Corners {
         grown_around([self.low, self.high], f64::from(part.shape.radius()) + reach, self.lengths)
     }
 
-    /// A triangle as it lies beside the part: what all bounds start from.
+    /// A triangle and its point nearest to the part's centre: what all bounds start from.
     pub(crate) fn beside(&self, corners: [Vec3; 3]) -> Beside {
         let corners = corners.map(|corner| corner.as_dvec3());
         Beside { corners, near: nearest(self.center, corners), of: None }
@@ -222,7 +222,7 @@ impl Corners {
             }
             _ => {}
         }
-        // Both points are points of the shapes up to rounding.
+        // Both points are on the shapes up to rounding.
         least.max(0.0) + self.doubt_beside(&corners)
     }
 

@@ -20,7 +20,7 @@ const MOST_BETWEEN: f64 = 8.0 * SAME_NORMAL;
 pub(super) struct NearPoints<'a> {
     ground: Ground<'a>,
     triangles: ArrayVec<NearTriangle, MOST>,
-    /// Whether there were more.
+    /// Whether there were more than are kept.
     is_cut: bool,
 }
 

@@ -70,7 +70,7 @@ pub(super) struct Grounded {
     most_loss: f32,
     /// How far the body reaches from its position, in metres.
     arm: f32,
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose3; 2],
 }
 

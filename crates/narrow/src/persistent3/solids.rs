@@ -19,7 +19,7 @@ use asunder_geometry::{Basis3, Pose3};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Solids {
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose3; 2],
     points: ContactPoints<Held, 4>,
     parts: [u32; 2],

@@ -45,8 +45,8 @@ pub(super) struct Base {
     /// Of several normals the one with the greatest weight is taken: the triangle's area, or zero where it is not a
     /// triangle's normal.
     pub(super) weight: f64,
-    /// How far the part reaches behind the triangle's plane, the furthest of several: negative, in metres; infinite
-    /// where it is not a triangle's normal.
+    /// The height of the part's lowest point over the triangle's plane, the lowest of several: negative behind it, in
+    /// metres; infinite where it is not a triangle's normal.
     pub(super) behind: f64,
 }
 
@@ -66,7 +66,7 @@ pub(super) struct Group {
 /// All normals of a part.
 pub(super) struct Groups {
     groups: ArrayVec<Group, MOST_GROUPS>,
-    /// Places that differ by no more are the same, in metres.
+    /// Positions that differ by no more count as the same, in metres.
     slack: f64,
     /// Points no further than this above the deepest count as deep as it where four of more are chosen, in metres.
     even: f64,

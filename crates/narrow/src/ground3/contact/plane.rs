@@ -28,7 +28,7 @@ impl Seen<'_> {
         });
     }
 
-    /// Adds the corners of a triangle that a half-space reaches.
+    /// Adds the corners of a triangle that are within reach of a half-space.
     fn add_corners(&self, facet: &Facet, normal: DVec3, known: &mut Known) {
         let (ground, standing, number) = (self.asking.on.ground, self.standing, facet.number);
         let (mut lowest, mut is_unclear) = (f64::INFINITY, false);

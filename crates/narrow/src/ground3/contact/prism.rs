@@ -54,7 +54,8 @@ pub(super) type Span = [(f64, Option<usize>); 2];
 pub(super) struct Incident {
     normal: DVec3,
     pub(super) face: usize,
-    /// The unit direction from the face to the rounded surface; `None` where there is none against the normal.
+    /// The unit direction from the core's face to the surface; for a segment the one across it. `None` for a point, and
+    /// for a segment nearly along the normal.
     pub(super) outwards: Option<DVec3>,
 }
 

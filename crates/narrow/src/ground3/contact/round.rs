@@ -199,7 +199,7 @@ mod tests {
                 (Furthest::Face, _) => facet.height(center).abs(),
                 (_, at) => (center - at).length(),
             };
-            // Balls of which the triangle is just within reach, or just not.
+            // Balls that have the triangle just within reach, or just not.
             for share in [1.0 + 1e-9, 1.0, 1.0 - 1e-9, 0.999] {
                 let (radius, reach) = (0.9 * distance * share, 0.1 * distance * share);
                 let round = Round { center, radius, lengths: radius, reach };

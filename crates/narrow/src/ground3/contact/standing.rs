@@ -12,7 +12,7 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, MAX_HULL_VERTICES};
 use asunder_geometry::{Basis3, Core3, Pose3, Shape3};
 
-/// Where a part is and how it is turned, in the ground's axes.
+/// The position and rotation of a part, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) axes: Basis3,
@@ -52,7 +52,7 @@ pub(super) struct Standing<'s> {
     pub(super) lengths: f64,
 }
 
-/// How far a part reaches down and up.
+/// How far a part reaches down and up, over a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) low: f64,
@@ -276,7 +276,7 @@ fn corners_of<T: Copy + PartialOrd>([low, high]: &[[[T; 8]; 3]; 2]) -> [[T; 3]; 
     [[least(&low[0]), least(&low[1]), least(&low[2])], [most(&high[0]), most(&high[1]), most(&high[2])]]
 }
 
-/// Of eight numbers the one that comes before all others.
+/// The one of eight numbers that comes before all others.
 #[inline(always)]
 fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
     let pick = |a: T, b: T| if is_before(a, b) { a } else { b };
