@@ -10,8 +10,8 @@ use crate::precision::signed;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 
-/// A manifold, and how its two bodies stood to each other when it was made: until they drift, it is moved along for a
-/// fraction of what a new one costs.
+/// A manifold, and the poses of its two bodies when it was computed: until they drift against each other, it is moved
+/// along for a fraction of the cost of a new one.
 ///
 /// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
 /// the smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the
@@ -46,16 +46,16 @@ use asunder_geometry::{Pose2, Shape2};
 pub struct Persistent2 {
     manifold: Manifold2,
     terms: Terms,
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose2; 2],
 }
 
 impl Persistent2 {
-    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
     ///
-    /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
-    /// where they touch in several parts; and where a point is on no edge, as of corners across a gap. Cost: a square
-    /// root.
+    /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
+    /// where they touch in several parts; and where a point is on no edge, as between corners across a gap. Cost: a
+    /// square root.
     pub fn of(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let edge = measured_from(hint)?;
@@ -80,8 +80,8 @@ impl Persistent2 {
         terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
-    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of
-    /// no use in the next.
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// would have drifted too far by the next.
     pub fn lasting(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2], step: f64) -> Option<Self> {
         if step > f64::from(Self::most_reach(job)) {
             return None;
@@ -89,17 +89,17 @@ impl Persistent2 {
         Self::of(job, answer, manifolds).filter(|made| step <= f64::from(made.reach()))
     }
 
-    /// Up to which drift a manifold of this job can be moved along at most, in metres.
+    /// The largest drift up to which a manifold of this job can be moved along, in metres.
     pub fn most_reach(job: &Job2<'_>) -> f32 {
         widest_reach_of([job.shape_a.outer_radius(), job.shape_b.outer_radius()])
     }
 
-    /// Up to which drift this one can be moved along, in metres.
+    /// The drift up to which this one can be moved along, in metres.
     pub fn reach(&self) -> f32 {
         self.terms.reach()
     }
 
-    /// The manifold as it was made.
+    /// The manifold as it was computed.
     pub const fn manifold(&self) -> &Manifold2 {
         &self.manifold
     }
@@ -114,13 +114,14 @@ impl Persistent2 {
         self.terms.margin
     }
 
-    /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
+    /// Whether the numbers beside the manifold are possible ones: for data that was read from a file.
     pub fn is_sound(&self) -> bool {
         self.terms.are_sound([self.manifold.separation, self.manifold.error])
     }
 
-    /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
-    /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
+    /// Appends the manifold as it is for the poses of A and B; returns false where it must be recomputed. Shapes and
+    /// margin must be those of its job. Its error includes what the drift may cost. Cost: constant, least where no body
+    /// turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
             to.push(self.manifold);
@@ -131,7 +132,7 @@ impl Persistent2 {
         } else {
             self.turned(poses)
         };
-        // What is not a number is not close.
+        // NaN is not close.
         let is_close = moved.drift <= f64::from(self.terms.reach());
         let filled = if is_close { self.filled(&moved) } else { None };
         let is_told = filled.is_some();
@@ -139,7 +140,7 @@ impl Persistent2 {
         is_told
     }
 
-    /// Moved, by bodies that did not turn.
+    /// The motion, where neither body turned.
     #[inline(always)]
     fn shifted(&self, offset: DVec2) -> Moved {
         let step = offset - between(self.poses.each_ref());
@@ -149,7 +150,7 @@ impl Persistent2 {
         Moved { drift, spun: 0.0, offset, normal, rise: normal.dot(step), turn: None }
     }
 
-    /// Moved, by bodies of which one turned.
+    /// The motion, where a body turned.
     #[inline(never)]
     fn turned(&self, poses: [&Pose2; 2]) -> Moved {
         let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
@@ -157,23 +158,23 @@ impl Persistent2 {
         let of_a = Turned::since(&self.poses[0], poses[0]);
         let of_b = Turned::since(&self.poses[1], poses[1]);
         let spin = (of_b.x - of_a.x).length();
-        // As seen from a body that does not turn: what either says of the drift is true.
+        // Seen from either body as if it did not turn: both give a true bound on the drift.
         let drift_from = |seen_from: &Turned, arm: f32| {
             let step = (offset - seen_from.turn(offset_then)).length();
             step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
         };
-        // Stored rotations are of unit length up to rounding, and scale their bodies by what they are off.
+        // Stored rotations are of unit length up to rounding, and scale their bodies by the difference.
         let scale = |body: usize| {
             let is_same = poses[body].same_rotation(&self.poses[body]);
             if is_same { 0.0 } else { 2.0 * f64::from(f32::EPSILON * self.terms.arms[body]) }
         };
         let [arm_a, arm_b] = self.terms.arms;
         let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
-        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as
-        // wholes.
+        // The normal turns with the body that sees the lesser drift of the other: along it, the separation holds for
+        // both bodies as wholes.
         let (seen, arm, seen_from) =
             if from_a <= from_b { (from_a, arm_b, &of_a) } else { (from_b, arm_a, &of_b) };
-        // What stored rotations scale their bodies by moves points as turning does.
+        // This scaling moves points as turning does.
         let scaled = scale(0) + scale(1);
         let (drift, spun) = (seen + scaled, spin * f64::from(arm) + scaled);
         let normal = seen_from.turn(normal_then);
@@ -181,7 +182,7 @@ impl Persistent2 {
         Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }
     }
 
-    /// The manifold as it is now; nothing where it has to be made anew.
+    /// The manifold as it is now; `None` where it must be recomputed.
     fn filled(&self, moved: &Moved) -> Option<Manifold2> {
         let of = &self.manifold;
         let mut to = Manifold2 { normal: moved.normal.as_vec2(), points: ContactPoints::new(), ..*of };
@@ -213,10 +214,10 @@ impl Persistent2 {
     }
 }
 
-/// How bodies moved since.
+/// How bodies moved since the manifold was computed.
 struct Moved {
     drift: f64,
-    /// Their spin against each other times the arm of the one that is seen to move.
+    /// Their rotation against each other times the arm of the one that is taken to move.
     spun: f64,
     /// From A's position to B's, now.
     offset: DVec2,
@@ -227,7 +228,7 @@ struct Moved {
     turn: Option<Turn>,
 }
 
-/// How bodies turned since, in world axes, and what was then.
+/// How bodies turned since, in world axes, and the offset and normal before that.
 struct Turn {
     of_a: Turned,
     of_b: Turned,
@@ -236,7 +237,8 @@ struct Turn {
 }
 
 impl Moved {
-    /// Where the point is now that is held by the body whose edge it is not, and by how much it rose over the other's.
+    /// The present position of a point, which stays on the body whose edge it is not measured from, and by how much it
+    /// rose over the other's edge.
     #[inline(always)]
     fn held(&self, [on_a, on_b]: [Vec2; 2], is_from_b: bool) -> (DVec2, f64) {
         let (on_a, on_b) = (on_a.as_dvec2(), on_b.as_dvec2());
@@ -255,8 +257,8 @@ fn between([a, b]: [&Pose2; 2]) -> DVec2 {
     b.position() - a.position()
 }
 
-/// Whether a manifold's normal is that of an edge. Corners across a gap are hinted to by the edge that all but parts
-/// them, and have a normal of their own.
+/// Whether a manifold's normal is that of an edge. Corners across a gap may have a hint of the edge that nearly
+/// separates them, and a normal of their own.
 fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
     let (shape, pose, edge, out) = match edge {
         OnFace::OfA(edge) => (job.shape_a, job.pose_a, edge as usize, 1.0),
@@ -267,8 +269,8 @@ fn is_normal_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> bool {
     normal.is_some_and(|normal| off(normal).length_squared() <= THEIRS * THEIRS)
 }
 
-/// By how much the bodies stand on each other, to both sides: from one point to the other, else how far the point is
-/// from the ends of the edge.
+/// How wide the bodies stand on each other, to both sides: the distance of two points, else that of the point to the
+/// nearer end of the edge.
 fn footing_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> Option<Footing> {
     let (mut low, mut high) = (manifold.separation, manifold.separation);
     for point in &manifold.points {
@@ -302,14 +304,14 @@ fn footing_of(job: &Job2<'_>, edge: OnFace, manifold: &Manifold2) -> Option<Foot
     Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
-/// A turn: where it takes the x axis, of unit length.
+/// A rotation: the image of the x axis, of unit length.
 #[derive(Clone, Copy)]
 struct Turned {
     x: DVec2,
 }
 
 impl Turned {
-    /// From one pose to another: exactly none where both are turned alike.
+    /// The rotation from one pose to another: exactly none where both have the same.
     fn since(then: &Pose2, now: &Pose2) -> Self {
         let axis = |pose: &Pose2| DVec2::new(pose.rotation().cos().into(), pose.rotation().sin().into());
         let (then, now) = (axis(then), axis(now));

@@ -14,15 +14,15 @@ use asunder_geometry::{Ground, Pose3};
 use grounded::{Grounded, Memory};
 use solids::Solids;
 
-/// Manifolds, and how their two bodies stood to each other when they were made: until they drift, they are moved along
-/// for a fraction of what new ones cost.
+/// Manifolds, and the poses of their two bodies when they were computed: until they drift against each other, they are
+/// moved along for a fraction of the cost of new ones.
 ///
 /// Bodies at rest are never quite still. As long as no point of one has moved against the other by more than 2^-15 of
 /// the smaller bounding radius (2^-10 where they rest on a broad patch), the manifold is reused: the same points of the
 /// same features, with separations and the normal updated. It is certain that the shapes still overlap, or are still
 /// within the margin, as before; a pair too close to either limit for that is not kept at all.
 ///
-/// On ground made of triangles the same goes for all manifolds of a body of one part, up to 2^-8 of its radius, and no
+/// On ground made of triangles this holds for all manifolds of a body of one part, up to 2^-8 of its radius, and no
 /// further than the margin; the ground must not have moved at all.
 ///
 /// ```
@@ -72,7 +72,7 @@ enum Kind {
     Grounded(Grounded),
 }
 
-/// Memory of what is no longer kept, for what is kept after it: so a steady frame allocates nothing.
+/// Memory of manifolds that are no longer kept, for reuse by later ones: so a steady frame allocates nothing.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, HeightField, Pose3, Shape3, glam::{Vec2, Vec3}};
@@ -100,15 +100,15 @@ enum Kind {
 pub struct Spare3(Vec<Memory>);
 
 impl Spare3 {
-    /// Takes the memory of what is kept no longer, which then carries nothing on. Of what has none, nothing. Cost:
-    /// constant.
+    /// Takes the memory of manifolds that are no longer kept; these can then not be moved along. Manifolds of solids
+    /// have none to take. Cost: constant.
     pub fn take(&mut self, kept: &mut Persistent3) {
         if let Kind::Grounded(kept) = &mut kept.0 {
             self.0.push(kept.take_memory());
         }
     }
 
-    /// Hands memory for one to another store that has none. Cost: constant.
+    /// Hands the memory of one to another store that has none. Cost: constant.
     ///
     /// ```
     /// use asunder_narrow::Spare3;
@@ -129,19 +129,19 @@ impl Spare3 {
 }
 
 impl Persistent3 {
-    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
     ///
-    /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
-    /// where solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, of
-    /// single solids, across a gap from each other. Of bodies on ground, nothing of compounds and half-spaces, nor where
-    /// a point is between corners, or a corner and an edge. Cost: some square roots, and linear in the vertices of a
-    /// face; on ground that of finding the triangles near the points.
+    /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
+    /// where solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, between
+    /// single solids, across a gap from each other. On ground, also for compounds and half-spaces, and where a point is
+    /// between corners, or a corner and an edge. Cost: some square roots, and linear in the vertices of a face; on
+    /// ground that of finding the triangles near the points.
     pub fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         Self::made((job, answer, manifolds), &mut Spare3::default())
     }
 
-    /// The same, of bodies that went so far in the last frame, in metres: nothing where one that goes on so would be of
-    /// no use in the next.
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// would have drifted too far by the next.
     pub fn lasting(
         job: &Job3<'_>,
         answer: &Answer,
@@ -173,13 +173,13 @@ impl Persistent3 {
         kept.map(|kept| Self(Kind::Grounded(kept)))
     }
 
-    /// Up to which drift manifolds of this job can be moved along at most, in metres.
+    /// The largest drift up to which manifolds of this job can be moved along, in metres.
     pub fn most_reach(job: &Job3<'_>) -> f32 {
         let radii = [job.shape_a.outer_radius(), job.shape_b.outer_radius()];
         grounded::most_reach(job).unwrap_or_else(|| widest_reach_of(radii))
     }
 
-    /// Up to which drift these can be moved along, in metres.
+    /// The drift up to which these can be moved along, in metres.
     pub fn reach(&self) -> f32 {
         match &self.0 {
             Kind::Solids(kept) => kept.reach(),
@@ -187,7 +187,7 @@ impl Persistent3 {
         }
     }
 
-    /// The manifolds as they were made: one, or on ground one or more. Bit by bit.
+    /// The manifolds as they were computed, bit by bit: one, or on ground one or more.
     pub fn manifolds(&self) -> impl Iterator<Item = Manifold3> {
         let (one, more) = match &self.0 {
             Kind::Solids(kept) => (Some(kept.manifold()), [].as_slice()),
@@ -212,7 +212,7 @@ impl Persistent3 {
         }
     }
 
-    /// Whether the numbers beside the manifolds can be those of some: of what was read from a file.
+    /// Whether the numbers beside the manifolds are possible ones: for data that was read from a file.
     pub fn is_sound(&self) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.is_sound(),
@@ -220,9 +220,9 @@ impl Persistent3 {
         }
     }
 
-    /// Appends the manifolds as they are for the poses of A and B; says no where they have to be made anew. Shapes and
-    /// margin must be those of its job. Their errors hold what the drift may cost. Cost: linear in the points, least
-    /// where no body turned.
+    /// Appends the manifolds as they are for the poses of A and B; returns false where they must be recomputed. Shapes
+    /// and margin must be those of its job. Their errors include what the drift may cost. Cost: linear in the points,
+    /// least where no body turned.
     pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.carry_on(poses, to),
@@ -235,7 +235,7 @@ impl Persistent3 {
 mod tests {
     use super::*;
 
-    /// A frame of bodies that rest reads each, and waits for memory: see `Solids`.
+    /// A frame of bodies at rest reads each of them, and waits for memory: see `Solids`.
     #[test]
     fn what_is_kept_takes_four_lines_of_memory() {
         assert!(size_of::<Persistent3>() <= 256, "{}", size_of::<Persistent3>());

@@ -1,4 +1,4 @@
-//! Two bodies in the plane as wholes, before one direction: see `shadow`.
+//! Two whole bodies in the plane, projected on a direction: see `shadow`.
 
 use crate::polygon::outline::{OF_SEARCH, Outline, Turn};
 use crate::precision::{IN_PLANE, Precision};
@@ -6,7 +6,7 @@ use crate::shadow::{Ball, Reaches, Shadow};
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Pose2, Shape2};
 
-/// Two bodies with all their parts: shapes, how they are turned, and B's position less A's.
+/// Two bodies with all their parts: shapes, rotations, and B's position less A's.
 pub(crate) struct Wholes2<'s> {
     pub(crate) shapes: [&'s Shape2; 2],
     pub(crate) turns: [&'s Turn; 2],
@@ -14,14 +14,14 @@ pub(crate) struct Wholes2<'s> {
 }
 
 impl Wholes2<'_> {
-    /// From A's middle to B's.
+    /// The unit direction from A's middle to B's.
     pub(crate) fn towards_b(&self) -> DVec2 {
         let [a, b] = [0, 1].map(|i| self.turns[i].turn(self.shapes[i].center().as_dvec2()));
         (self.between + (b - a)).try_normalize().unwrap_or(DVec2::X)
     }
 
-    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them.
-    /// Nothing of half-planes, which reach everywhere but along their normal.
+    /// The projections on a unit direction, in world axes, and the direction to try next where it does not separate the
+    /// bodies. `None` for half-planes, which are unbounded except along their normal.
     pub(crate) fn shadow(&self, direction: DVec2, limit: f64) -> Option<(Shadow<DVec2>, DVec2)> {
         if self.shapes.iter().any(|shape| matches!(shape, Shape2::HalfPlane(_))) {
             return None;
@@ -44,7 +44,7 @@ impl Wholes2<'_> {
             return Some((shadow, direction));
         };
         let along = direction.dot(way);
-        // Apart by less than is asked for, the way itself is better.
+        // Where they are apart by less than asked for, the vector between the furthest points is the better direction.
         let next = if along > 0.0 { way } else { direction - way * (2.0 * along) };
         Some((shadow, next.try_normalize().unwrap_or(way)))
     }

@@ -1,4 +1,4 @@
-//! Two bodies in space as wholes, before one direction: see `shadow`.
+//! Two whole bodies in space, projected on a direction: see `shadow`.
 
 use crate::polyhedron::solid::Solid;
 use crate::precision::{IN_SPACE, Precision};
@@ -8,7 +8,7 @@ use asunder_geometry::{Basis3, Pose3, Shape3};
 
 const IDENTITY: Basis3 = Basis3 { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 
-/// Two bodies with all their parts: shapes, how they are turned, and B's position less A's.
+/// Two bodies with all their parts: shapes, rotations, and B's position less A's.
 pub(crate) struct Wholes3<'s> {
     pub(crate) shapes: [&'s Shape3; 2],
     pub(crate) bases: [&'s Basis3; 2],
@@ -16,14 +16,14 @@ pub(crate) struct Wholes3<'s> {
 }
 
 impl Wholes3<'_> {
-    /// From A's middle to B's.
+    /// The unit direction from A's middle to B's.
     pub(crate) fn towards_b(&self) -> DVec3 {
         let [a, b] = [0, 1].map(|i| self.bases[i].turn(self.shapes[i].center().as_dvec3()));
         (self.between + (b - a)).try_normalize().unwrap_or(DVec3::X)
     }
 
-    /// What a direction of unit length shows, in world axes, and the one to try next where it does not part them.
-    /// Nothing of half-spaces, which reach everywhere but along their normal.
+    /// The projections on a unit direction, in world axes, and the direction to try next where it does not separate the
+    /// bodies. `None` for half-spaces, which are unbounded except along their normal.
     pub(crate) fn shadow(&self, direction: DVec3, limit: f64) -> Option<(Shadow<DVec3>, DVec3)> {
         if self.shapes.iter().any(|shape| matches!(shape, Shape3::HalfSpace(_))) {
             return None;
@@ -44,7 +44,7 @@ impl Wholes3<'_> {
             return Some((shadow, direction));
         };
         let along = direction.dot(way);
-        // Apart by less than is asked for, the way itself is better.
+        // Where they are apart by less than asked for, the vector between the furthest points is the better direction.
         let next = if along > 0.0 { way } else { direction - way * (2.0 * along) };
         Some((shadow, next.try_normalize().unwrap_or(way)))
     }

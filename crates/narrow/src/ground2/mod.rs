@@ -1,4 +1,4 @@
-//! Chains, as convex shapes see them: which boxes of segments are near, and which normals a surface has.
+//! Chains against convex shapes: which boxes of segments are near, and which normals a surface gives.
 
 mod surface;
 mod zone;

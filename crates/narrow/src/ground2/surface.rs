@@ -1,19 +1,19 @@
-//! A straight run of a chain as a surface: which normals it has, and which of those that a kernel finds are its own.
+//! A straight run of a chain as a surface: which normals it gives, and which of those found by a kernel are its own.
 //!
 //! ```text
-//! d = from the ground to the body
-//! along the run's normal:                     its face is touched
-//! past an end, with no neighbour there:       a loose end
-//!              within the neighbour's, too:   the corner is touched, on its outer side        (Voronoi region)
-//!              beyond the neighbour's normal: the neighbour is touched and not this run
-//!                  a sharp corner, or the body is in front of the one and behind the other:
-//!                                             this run adds nothing
-//!                  a blunt one, a hollow:     the run's own normal takes the place of d
+//! d = unit direction from the ground to the body
+//! d along the run's normal:                    its face is touched
+//! d leans past an end, without a neighbour:    a loose end is touched
+//!     and is not towards the neighbour:        the corner is touched, on its outer side               (Voronoi region)
+//!     and is towards the neighbour:            the neighbour is touched, not this run
+//!         a sharp corner, or the body is in front of one run and behind the other:
+//!                                              this run adds nothing
+//!         a blunt or a concave corner:         the run's normal takes the place of d
 //! ```
-//! So inner vertices of a straight line, and hollows, never give a sideways normal. That the neighbour alone has a
-//! sharp corner's contact matters: what lies below the one face of a step lies deep behind the other, and a body that
-//! stands on it, tilted by nothing, would be pushed off. Where faces meet bluntly neither is deep where the other is
-//! shallow, and segments that are tiny beside a depth need a normal that is not their end's.
+//! So inner vertices of a straight line, and concave corners, never give a sideways normal. It matters that a sharp
+//! corner's contact is the neighbour's alone: what lies below one face of a step lies deep behind the other, and a body
+//! that stands on the step, tilted by next to nothing, would be pushed off. Where faces meet bluntly, neither is deep
+//! where the other is shallow, and segments that are tiny compared with the depth need a normal other than their end's.
 
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{ALONG_GROUND, BEHIND_END, SHARP_CORNER};
@@ -21,7 +21,7 @@ use asunder_geometry::{Chain, Run};
 
 use crate::polygon::outline::Turn;
 
-/// A straight run in the frame of a pair, on the side that a body is on.
+/// A straight run in the frame of a pair, seen from the side that a body is on.
 #[derive(Clone, Copy)]
 pub(crate) struct Surface {
     run: Run,
@@ -36,22 +36,22 @@ pub(crate) struct Surface {
     is_one_sided: bool,
 }
 
-/// What a direction from the ground to a body says of the run that it was found on.
+/// What a direction from the ground to a body is for the run that it was found on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Told {
     /// It is the run's normal.
     Face,
     /// It is that of a corner, or a loose end.
     Corner,
-    /// It is neither: the run's own normal is to take its place.
+    /// It is neither: the run's normal is to take its place.
     Inner,
-    /// It is neither, beyond a sharp corner: the neighbour's normal, which sees to it.
+    /// It is neither, beyond a sharp corner: the contact is the neighbour's, with this normal.
     Beyond(DVec2),
 }
 
 impl Surface {
-    /// A run of a chain that is turned, with its origin at `origin`, seen by a body whose centre is given in the same
-    /// frame. Nothing where a one-sided chain is not seen from there. What has no centre sees all.
+    /// A run of a turned chain with its origin at `origin`, seen by a body whose centre is given in the same frame.
+    /// `None` where a one-sided chain faces away from it. A body without a centre counts as in front.
     pub(crate) fn new(
         chain: &Chain,
         run: &Run,
@@ -88,7 +88,7 @@ impl Surface {
         })
     }
 
-    /// Which edge of the segment from its first vertex to its last looks along the normal.
+    /// Which edge of the segment from its first vertex to its last faces along the normal.
     pub(crate) fn edge(&self) -> usize {
         usize::from(!self.is_front)
     }
@@ -106,8 +106,9 @@ impl Surface {
         };
         // Away from the corner.
         let leaving = if end == 1 { next } else { -next };
-        // Behind the face is who meets a hollow corner so; of a convex one of less than a right angle, nobody: normals
-        // of it may look away from the face. A chain that leads straight back is a wall of no width, with a tip.
+        // Only a body behind the face meets a concave corner in such a direction. A convex corner of less than a right
+        // angle is different: its normals may point away from the face. A chain that turns straight back is a wall
+        // without width, with a tip.
         let rise = leaving.dot(self.normal);
         let leads_back = rise.abs() <= ALONG_GROUND && leaving.dot(self.along) * lean < 0.0;
         let is_convex = rise < 0.0 || leads_back;
@@ -116,7 +117,7 @@ impl Surface {
             return Told::Corner;
         }
         let normal = if is_in_front { right_of(next) } else { -right_of(next) };
-        // In front of the one and behind the other, a body looks at the corner over the one that it is beyond.
+        // A body in front of one run and behind the other sees the corner over the one that it is beyond.
         let is_across = is_in_front != self.is_front && !self.is_one_sided;
         let is_sharp = rise < 0.0 && normal.dot(self.normal) < SHARP_CORNER;
         if is_across || (is_sharp && is_in_front == self.is_front) {
@@ -126,8 +127,8 @@ impl Surface {
         }
     }
 
-    /// The same of a point where the ground is touched: inner vertices of the run are no corners, though it may have
-    /// them. `near` is how far from an end counts as the end.
+    /// The same for a point where the ground is touched: inner vertices that the run may have are no corners. `near` is
+    /// how far from an end counts as the end.
     pub(crate) fn tell_at(&self, direction: DVec2, point: DVec2, near: f64) -> Told {
         let told = self.tell(direction);
         let end = self.ends[usize::from(direction.dot(self.along) > 0.0)];

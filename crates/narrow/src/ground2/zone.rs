@@ -1,4 +1,4 @@
-//! Where a convex shape is, in the axes of a chain.
+//! Bounds of a convex shape in the axes of a chain.
 
 use crate::polygon::outline::{Outline, Turn};
 use asunder_geometry::glam::DVec2;
@@ -10,7 +10,7 @@ const STRETCH: f64 = 4.0 * f32::EPSILON as f64;
 /// Roundings of a coordinate, in units of 2^-52 of all that it is a sum of: more than a pair's projection has.
 const ROUNDINGS: f64 = 64.0;
 
-/// All that a bound on the distance from the boxes of a chain needs.
+/// What is needed to bound the distance from the boxes of a chain.
 pub(crate) enum Zone {
     /// A box around it, in the chain's axes.
     Around { low: DVec2, high: DVec2 },
@@ -19,8 +19,8 @@ pub(crate) enum Zone {
 }
 
 impl Zone {
-    /// Of a shape that is turned and whose origin is `offset` from the chain's, in world axes. `summed` bounds what the
-    /// offset is a sum of.
+    /// For a turned shape whose origin is `offset` from the chain's, in world axes. `summed` bounds the lengths that
+    /// make up the offset.
     pub(crate) fn of(shape: &Shape2, turn: Turn, offset: DVec2, chain: &Turn, summed: f64) -> Self {
         let lost = |reach: f64| ROUNDINGS * f64::EPSILON * (summed + sum(offset) + reach);
         if let Shape2::HalfPlane(half_plane) = shape {
@@ -40,7 +40,7 @@ impl Zone {
             }
             _ => outline.support(direction).reach,
         };
-        // The chain's axes are as long as its rotation stretches; the other way, by the square of that.
+        // The chain's axes are as long as its rotation stretches; the inverse divides by the square of that.
         let [x, y] = chain.axes();
         let inverse = 1.0 / x.length_squared();
         let high = DVec2::new(reach(x), reach(y)) * inverse;
@@ -50,7 +50,7 @@ impl Zone {
         Self::Around { low: low - wider, high: high + wider }
     }
 
-    /// How far it is from a box at least, in metres; of a half-plane, negative for how deep the box reaches.
+    /// A lower bound on the distance from a box, in metres; for a half-plane, below zero by how deep the box reaches.
     pub(crate) fn gap(&self, bounds: &Aabb2) -> f64 {
         let (min, max) = (bounds.min.as_dvec2(), bounds.max.as_dvec2());
         match *self {
@@ -64,7 +64,7 @@ impl Zone {
         }
     }
 
-    /// The largest coordinates around it, added up.
+    /// The sum of the largest coordinates around it.
     pub(crate) fn reach(&self) -> f64 {
         match *self {
             Self::Around { low, high } => low.abs().max(high.abs()).element_sum(),

@@ -1,24 +1,24 @@
-//! Whether a body shares a point with ground, and how near it is to it.
+//! Overlap and separation of a body and ground.
 //!
-//! Ground is the union of its triangles, as a compound is of its parts, and is asked in the same way: each convex part
+//! Ground is the union of its triangles, as a compound is of its parts, and is tested in the same way: each convex part
 //! of the body against each triangle near it, as two convex shapes, with the same error and the same exactness.
 //!
 //! ```text
-//! overlap      the triangles whose boxes the part's box meets; the axis across the triangle; a point of it in the sphere
-//!              inside the part; then as any pair
-//! separation   a sphere that is apart from all is told so in closed form                                   (ask_round)
-//!              the triangles nearest first by their boxes, until those are beyond the least so far:
-//!                beyond what a point of the part and one of a triangle that was met show: passed over
+//! overlap      triangles whose boxes the part's box meets: apart along the triangle's normal, or along the axis to its
+//!              nearest point; a point of it in the sphere or cuboid inside the part; else as any pair
+//! separation   a sphere that is apart from all triangles: in closed form                                   (ask_round)
+//!              triangles in the order of their boxes' distances, up to the least separation so far:
+//!                beyond an upper bound from a point of the part and one of a triangle seen before: skipped
 //!                else it waits
 //!              those that wait, the least lower bound first:
-//!                the axis that was told last shows it no nearer than the least so far: passed over
+//!                the axis found last shows it no nearer than the least separation so far: skipped
 //!                else as any pair
 //! ```
-//! Kernels are dear, and most of the triangles around the nearest share the corner or the edge that is. What the bounds
-//! save: kernels asked, of hulls of 32 over hills, 9.4 to 1.8 a question; of boxes 5.1 to 2.2. Times from 11.0 us to
-//! 6.4, 7.3 to 5.6 (AMD EPYC, Zen 4, 2026-11-22).
+//! Kernels are expensive, and most triangles around the nearest share its nearest corner or edge. What the bounds save,
+//! over hills: kernel calls per query, 9.4 to 1.8 for hulls of 32, 5.1 to 2.2 for boxes; time, 11.0 us to 6.4, and 7.3
+//! to 5.6 (AMD EPYC, Zen 4, 2026-11-22).
 //!
-//! Two grounds are asked about each triangle of one against those of the other that are near it.
+//! Between two grounds, each triangle of one is tested against the triangles of the other that are near it.
 
 use super::ask_box::Corners;
 use super::ask_sides::sphere_of;
@@ -35,10 +35,10 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 use core::ops::ControlFlow;
 
-/// Triangles that wait until a point of another has shown them to be too far away.
+/// Most triangles that wait, as an upper bound from another may show that they are too far away.
 const MOST_WAITING: usize = 16;
 
-/// What is told of the triangle that is nearest.
+/// What is reported of the nearest triangle.
 pub(super) struct Told {
     pub(super) parts: [u32; 2],
     pub(super) separation: f32,
@@ -90,7 +90,7 @@ impl Pair3<'_> {
         self.any_on(on, false, |parts| parts.convex.guess())
     }
 
-    /// Whether any part overlaps a triangle that sees it.
+    /// Whether any part overlaps a triangle that faces it.
     pub(crate) fn overlaps_seen(&self, on: &OnGround) -> bool {
         self.gap_of_spheres() <= 0.0 && self.any_on(on, true, |parts| parts.convex.verdict().overlapping)
     }
@@ -155,7 +155,7 @@ impl Pair3<'_> {
             return Err(round_down(gap));
         }
         let mut least = Least::within(limit);
-        // What no box within reach holds.
+        // The bound for triangles with no box within the limit.
         least.give_up(round_down(limit));
         let bases = on.in_order([on.body_basis, on.basis]);
         let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);
@@ -172,7 +172,7 @@ impl Pair3<'_> {
         least.finish()
     }
 
-    /// Offers what is near a part; tells how near others must be to matter.
+    /// Offers the triangles near a part; returns the distance within which others still matter.
     fn look_around(
         &self,
         on: &OnGround,
@@ -187,7 +187,7 @@ impl Pair3<'_> {
         let mut asker = Asker { pair: self, on, bases, part, wanted, placed, shown: None };
         let mut waiting: ArrayVec<(f64, u32), MOST_WAITING> = ArrayVec::new();
         let mut at_most = f64::INFINITY;
-        // The core's box: a ball's own has corners that are nearer than the ball.
+        // The core's box: the box around a ball has corners that are nearer than the ball.
         let radius = f64::from(part.shape.radius());
         on.ground.visit_nearest(&placed.bounds(-radius, part), least.reach() + radius, |number| {
             let beside = placed.narrowed(&placed.beside(on.ground.corners(number)));
@@ -213,7 +213,7 @@ impl Pair3<'_> {
     }
 }
 
-/// Asks the kernels of a part and triangles, one after the other.
+/// Calls the kernels for a part and triangles, one after the other.
 struct Asker<'s> {
     pair: &'s Pair3<'s>,
     on: &'s OnGround<'s>,
@@ -221,14 +221,13 @@ struct Asker<'s> {
     part: &'s Part<'s>,
     wanted: Wanted,
     placed: &'s Corners,
-    /// The axis that was told last, from the part to the ground in the ground's axes, and how far the part reaches
-    /// there.
+    /// The axis found last, from the part to the ground in the ground's axes, and how far the part reaches along it.
     shown: Option<(DVec3, f64)>,
 }
 
 impl Asker<'_> {
-    /// Asks of one triangle, unless the last axis shows that it is no nearer than the nearest so far: most often they
-    /// share the corner or the edge that is.
+    /// Calls the kernels for one triangle, unless the last axis shows that it is no nearer than the nearest so far:
+    /// most often both share the nearest corner or edge.
     fn ask(&mut self, number: u32, least: &mut Least<Told>) {
         let Self { pair, on, bases, part, wanted, placed, .. } = *self;
         let beside = &placed.beside(on.ground.corners(number));

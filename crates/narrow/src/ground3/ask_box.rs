@@ -1,18 +1,17 @@
-//! What a few corners prove of a convex part and a triangle, before anything dearer is asked.
+//! Cheap bounds for a convex part and a triangle, from a few of their corners, before any kernel is called.
 //!
 //! ```text
 //! apart       along the triangle's normal: what stands on a floor is above most of its triangles
-//!             along the way from the part's centre to the triangle's nearest point: all others
-//! passed by   on one side of the triangle's plane from start to end
-//!             along the same way, square to the motion
+//!             along the vector from the part's centre to the triangle's nearest point: all others
+//! missed      on one side of the triangle's plane from start to end of a motion
+//!             along the same vector, made square to the motion
 //! ```
-//! The point of a cuboid that is nearest to the triangle's point, and the triangle's that is nearest to that, lie
-//! nearer by each step, for a few products: the way between them is most often the distance but for rounding, and no
-//! kernel is asked. Of boxes on hills, yes or no took 0.75 of the time by it, distances 0.89 (AMD EPYC, Zen 4,
-//! 2026-11-26).
+//! A cuboid's point nearest to the triangle's point, and the triangle's point nearest to that, come closer with each
+//! step, for a few products: their distance most often is the separation up to rounding, and no kernel is called. With
+//! this, boxes on hills take 0.75 of the time for overlap, 0.89 for distances (AMD EPYC, Zen 4, 2026-11-26).
 //!
-//! An axis is any: what all corners of both show along it is proved, however it was found. And any two points bound a
-//! separation from above.
+//! Any axis will do: what all corners of both show along it is proved, however the axis was found. And any two points
+//! bound a separation from above.
 
 use super::contact::span_of;
 use super::near::{OnGround, SeenAt, grown_around};
@@ -21,33 +20,33 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Shape3};
 
-/// Cores of no more vertices are looked at by them, others by their bounding spheres.
+/// Cores with no more vertices are represented by them, others by their bounding spheres.
 const FEW: usize = 8;
 
-/// What a part is made of, before it is rounded.
+/// A part before it is rounded.
 enum Extent {
-    /// All between some points.
+    /// The convex hull of some points.
     Points(ArrayVec<DVec3, FEW>),
     /// A cuboid about the part's origin and along its axes, by its half extents.
     Cuboid(DVec3),
 }
 
-/// A convex part in the ground's axes: everything within a radius of some points.
+/// A convex part in the ground's axes: everything within a radius of a core.
 pub(crate) struct Corners {
     extent: Extent,
     radius: f64,
     /// The centre of its bounding sphere.
     center: DVec3,
-    /// What tells the side of a triangle that it is on.
+    /// Decides which side of a triangle it is on.
     pub(crate) seen_at: SeenAt,
-    /// How far the part reaches from there in every direction at least; below zero where it is beside that.
+    /// How far the part reaches from `center` in every direction at least; below zero where the centre is outside it.
     inner_radius: f64,
     /// Whether `extent` is the part itself, and not a ball around it.
     has_all: bool,
     /// The part's axes and its origin in the ground's.
     axes: [DVec3; 3],
     origin: DVec3,
-    /// All lengths that were summed for a place, and the radius.
+    /// All lengths that were summed for a position, and the radius.
     lengths: f64,
     low: DVec3,
     high: DVec3,
@@ -59,18 +58,18 @@ pub(crate) struct Beside {
     corners: [DVec3; 3],
     /// Its point nearest to the part's centre, or to a point of the part, up to rounding.
     near: DVec3,
-    /// That point.
+    /// That point of the part, if it is not the centre.
     of: Option<DVec3>,
 }
 
-/// What a part and a triangle take up along an axis, in metres from the triangle's first corner.
+/// The intervals of a part and a triangle along an axis, in metres from the triangle's first corner.
 struct Along {
     part: [f64; 2],
     triangle: [f64; 2],
 }
 
 impl Along {
-    /// By how much the part is beyond the triangle, on either side.
+    /// By how much the part is beyond the triangle, on the better of both sides.
     fn gap(&self) -> f64 {
         let (above, below) = (self.part[0] - self.triangle[1], self.triangle[0] - self.part[1]);
         if above > below { above } else { below }
@@ -78,7 +77,7 @@ impl Along {
 }
 
 impl Corners {
-    /// A part as it stands. A half-space has no points, and proves nothing.
+    /// For a placed part. A half-space has no points, and proves nothing.
     pub(crate) fn of(on: &OnGround, part: &Part) -> Self {
         let (axes, _) = part.placed(&on.body_basis);
         let (origin, summed) = on.origin_of(part);
@@ -116,7 +115,7 @@ impl Corners {
             low,
             high,
         };
-        // Of what has few, without all that goes with a core.
+        // Shapes with few vertices, without the cost of building a core.
         match shape {
             Shape3::Cuboid(cuboid) => corners.hold_cuboid(cuboid.half_extents().as_dvec3()),
             Shape3::Sphere(_) => corners.hold(&[Vec3::ZERO]),
@@ -141,7 +140,7 @@ impl Corners {
         (self.low, self.high, self.extent) = (self.origin - arm, self.origin + arm, Extent::Cuboid(half));
     }
 
-    /// Of many, the first: none will do.
+    /// Of too many, the first: they are not used then.
     fn hold(&mut self, vertices: &[Vec3]) {
         let mut points = ArrayVec::new();
         for vertex in vertices {
@@ -164,7 +163,7 @@ impl Corners {
         DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 
-    /// The box around it, grown by `reach` metres and rounded outwards. Everything, for a half-space.
+    /// The box around it, grown by `reach` metres and rounded outwards. Infinite for a half-space.
     pub(crate) fn bounds(&self, reach: f64, part: &Part) -> Aabb3 {
         if self.is_endless() {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
@@ -172,14 +171,14 @@ impl Corners {
         grown_around([self.low, self.high], f64::from(part.shape.radius()) + reach, self.lengths)
     }
 
-    /// A triangle as it lies beside the part: what all bounds start from.
+    /// A triangle and its point nearest to the part's centre: what all bounds start from.
     pub(crate) fn beside(&self, corners: [Vec3; 3]) -> Beside {
         let corners = corners.map(|corner| corner.as_dvec3());
         Beside { corners, near: nearest(self.center, corners), of: None }
     }
 
-    /// One step closer, up to rounding: the cuboid's point nearest to the last of the triangle, and the triangle's
-    /// nearest to that.
+    /// One step closer, up to rounding: the cuboid's point nearest to the triangle's last point, and the triangle's
+    /// point nearest to that.
     pub(crate) fn narrowed(&self, beside: &Beside) -> Beside {
         let &Beside { corners, near, of } = beside;
         let Extent::Cuboid(half) = self.extent else { return *beside };
@@ -192,8 +191,8 @@ impl Corners {
         Beside { corners, near: nearest(of, corners), of: Some(of) }
     }
 
-    /// A lower bound on the separation from a triangle; zero or less where nothing shows one. What shows more than is
-    /// asked for comes first.
+    /// A lower bound on the separation from a triangle; zero or less where no axis shows a gap. Returns early with a
+    /// bound above `wanted`.
     pub(crate) fn gap(&self, beside: &Beside, wanted: f64) -> f64 {
         let corners = beside.corners;
         let [a, b, c] = corners;
@@ -207,9 +206,9 @@ impl Corners {
         towards.map_or(shown, |axis| shown.max(self.along(axis, corners).gap()))
     }
 
-    /// An upper bound on the separation from a triangle: the way from its point nearest to the part's centre to the
-    /// sphere inside the part, or from a cuboid's point where the two are narrowed, else from the part's corner nearest
-    /// to that point. Infinite for a half-space.
+    /// An upper bound on the separation from a triangle: from its point nearest to the part's centre to the sphere
+    /// inside the part; or from a cuboid's point where the two are narrowed, else from the part's corner nearest to
+    /// that point. Infinite for a half-space.
     pub(crate) fn at_most(&self, beside: &Beside) -> f64 {
         let &Beside { corners, near, of } = beside;
         let mut least = self.gap_of_ball(beside);
@@ -223,11 +222,11 @@ impl Corners {
             }
             _ => {}
         }
-        // Both points are points of the shapes up to rounding.
+        // Both points are on the shapes up to rounding.
         least.max(0.0) + self.doubt_beside(&corners)
     }
 
-    /// Whether the sphere inside the part, or the cuboid that it is, certainly holds a point of a triangle.
+    /// Whether the sphere inside the part, or the cuboid if it is one, certainly contains a point of a triangle.
     pub(crate) fn holds_some(&self, beside: &Beside) -> bool {
         let doubt = self.doubt_beside(&beside.corners);
         let within = match self.extent {
@@ -242,19 +241,19 @@ impl Corners {
         (beside.near - self.center).length() - self.inner_radius
     }
 
-    /// What the distance of a point from one of a triangle may be off by, in metres.
+    /// Error bound of the distance between a point and one of a triangle, in metres.
     fn doubt_beside(&self, corners: &[DVec3; 3]) -> f64 {
         1024.0 * f64::EPSILON * self.lengths_with(corners)
     }
 
-    /// The lengths that go into what is told of a triangle, in metres: the furthest corner's, too.
+    /// The summed lengths that go into a bound for a triangle, in metres: those of its furthest corner, too.
     #[inline]
     fn lengths_with(&self, corners: &[DVec3; 3]) -> f64 {
         self.lengths + span_of(corners).element_sum()
     }
 
-    /// How far the part reaches along a unit axis, in metres from the ground's origin; without end for a half-space.
-    /// Cost: linear in the vertices.
+    /// How far the part reaches along a unit axis, in metres from the ground's origin; infinite for a half-space. Cost:
+    /// linear in the vertices.
     pub(crate) fn top(&self, part: &Part, axis: DVec3) -> f64 {
         let highest = match &self.extent {
             Extent::Cuboid(half) => axis.dot(self.origin) + self.own(axis).abs().dot(*half),
@@ -271,8 +270,8 @@ impl Corners {
         highest + f64::from(part.shape.radius())
     }
 
-    /// The axis from the centre to a triangle's nearest point, and how far the part reaches there, where
-    /// [`Corners::gap`] has not looked along it at the part's own points.
+    /// The axis from the centre to a triangle's nearest point, and how far the part reaches along it, where
+    /// [`Corners::gap`] has not tested the part's own points along it.
     pub(crate) fn towards(&self, part: &Part, beside: &Beside) -> Option<(DVec3, f64)> {
         if self.has_all {
             return None;
@@ -281,14 +280,14 @@ impl Corners {
         Some((axis, self.top(part, axis)))
     }
 
-    /// A lower bound on the separation from a triangle: along a unit axis up to which the part reaches so far.
+    /// A lower bound on the separation from a triangle, along a unit axis along which the part reaches as far as `top`.
     pub(crate) fn beyond(&self, (axis, top): (DVec3, f64), beside: &Beside) -> f64 {
         let [a, b, c] = beside.corners;
         let least = axis.dot(a).min(axis.dot(b)).min(axis.dot(c));
         least - top - 128.0 * f64::EPSILON * (self.lengths_with(&beside.corners) + least.abs())
     }
 
-    /// Whether it passes a triangle by while it is moved, for certain.
+    /// Whether it certainly misses a triangle while it moves by `way`.
     pub(crate) fn passes(&self, beside: &Beside, way: DVec3) -> bool {
         let corners = beside.corners;
         let [a, b, c] = corners;
@@ -307,7 +306,7 @@ impl Corners {
         self.along(axis, corners).gap() > axis.dot(way).abs() + doubt
     }
 
-    /// What both take up along a unit axis; the part beyond rounding.
+    /// The intervals of both along a unit axis; the part's is widened by the rounding error.
     #[inline]
     fn along(&self, axis: DVec3, corners: [DVec3; 3]) -> Along {
         let [a, b, c] = corners;
@@ -336,9 +335,9 @@ impl Corners {
     }
 }
 
-/// The way from a triangle's nearest point to another point, up to rounding, and how far above its corners that point
-/// is along it, times its length: the plane square to it through the highest corner parts them by that, whatever the
-/// way is worth.
+/// The vector from a triangle's nearest point to another point, up to rounding, and how far that point is above all
+/// corners along it, times its length: the plane square to it through the highest corner separates the two by that,
+/// however good the vector is.
 #[inline]
 pub(super) fn way_from(corners: [DVec3; 3], point: DVec3) -> (DVec3, f64) {
     let away = point - nearest(point, corners);

@@ -1,4 +1,4 @@
-//! From which side ground is seen, and which way it faces where it is touched.
+//! Which side of the ground a part is on, and which way the ground faces where it is touched.
 
 use super::near::{OnGround, SeenAt, box_around};
 use arrayvec::ArrayVec;
@@ -7,7 +7,8 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{ON_TRIANGLE, SAME_NORMAL};
 use core::ops::ControlFlow;
 
-/// Triangles around a touched point that are looked at: beyond, the ground is a fan that no normal is owed to.
+/// Most triangles around a touched point that are tested: with more, the ground is a fan for which no normal is
+/// promised.
 const MOST_AROUND: usize = 32;
 
 /// A point of the ground, in its own axes, and the unit direction from there to the body.
@@ -16,18 +17,18 @@ pub(crate) struct Touched {
     pub(crate) triangle: u32,
     pub(crate) point: DVec3,
     pub(crate) away: DVec3,
-    /// How the body moves there, of any length.
+    /// The body's motion there, of any length.
     pub(crate) way: DVec3,
 }
 
 /// Which way ground faces where it is touched.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Facing {
-    /// Whose direction that is.
+    /// The triangle that gave the direction.
     pub(crate) triangle: u32,
     /// The unit direction.
     pub(crate) away: DVec3,
-    /// Whether the body moves that way.
+    /// Whether the body moves along it.
     pub(crate) is_left: bool,
 }
 
@@ -37,24 +38,24 @@ struct Around {
     corners: [DVec3; 3],
     /// The unit normal, towards the body.
     facing: DVec3,
-    /// Whether it sees the body.
+    /// Whether the body is in front of it, or the ground is two-sided.
     sees: bool,
 }
 
-/// Not of unit length; of a triangle's front.
+/// The normal of a triangle's front, not of unit length.
 fn normal_of([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }
 
 impl Touched {
-    /// Whether the body moves to where a unit direction points, by more than rounding.
+    /// Whether the body moves along a unit direction, by more than rounding.
     pub(crate) fn is_left(&self, away: DVec3) -> bool {
         away.dot(self.way) > SAME_NORMAL * self.way.length()
     }
 }
 
 impl OnGround<'_> {
-    /// Whether a triangle sees a part that is there: always, unless the ground is one-sided and that is behind.
+    /// Whether a triangle faces a part at this position: always, unless the ground is one-sided and the part behind it.
     pub(crate) fn sees(&self, corners: [Vec3; 3], seen_at: SeenAt) -> bool {
         if !self.ground.is_one_sided() {
             return true;
@@ -63,19 +64,20 @@ impl OnGround<'_> {
         seen_at.is_in_front(corners[0], normal_of(corners))
     }
 
-    /// The direction in which a touched triangle pushes a part that is there, and whose it is: no ghosts.
+    /// The direction in which a touched triangle pushes a part at this position, and the triangle that gives it: no
+    /// ghosts.
     ///
     /// ```text
-    /// the triangle's normal:                               its own
-    /// else, where nothing around the point rises into it:  it is that of an edge or a vertex that stands out
-    /// else the normal of a face around the point:          of one-sided ground one that the body moves into, if there
-    ///                                                      is any;
-    ///                                                      of those one that nothing rises into, if there is any;
-    ///                                                      of those the one nearest to the direction found
+    /// the direction found is the triangle's normal:       that
+    /// no triangle around the point rises into it:         the direction itself, of a prominent edge or vertex
+    /// else the normal of a triangle around the point:     of one-sided ground one that the body moves into, if there
+    ///                                                     is any; of those one that nothing rises into, if there is
+    ///                                                     any; of those the one nearest to the direction found
     /// ```
-    /// A direction belongs to a point of a set if no part of the set near it lies that way (its normal cone; Ericson,
-    /// "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). Asked of
-    /// all triangles that hold the point and not of those across its edges, it also holds where edges do not meet.
+    /// A direction belongs to a point of a set if no part of the set near the point extends that way (its normal cone;
+    /// Ericson, "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). As
+    /// all triangles that contain the point are tested, not only those across its edges, this also holds where edges do
+    /// not meet.
     pub(crate) fn facing(&self, touched: &Touched, seen_at: SeenAt) -> Facing {
         let told = |triangle: u32, away: DVec3| Facing { triangle, away, is_left: touched.is_left(away) };
         let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
@@ -92,10 +94,10 @@ impl OnGround<'_> {
         }
         let mut best: Option<((bool, bool, f64), &Around)> = None;
         for one in around.iter().filter(|one| one.sees) {
-            // The triangle itself, where others are no nearer.
+            // Prefers the triangle itself, where others are no nearer.
             let nearness =
                 one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
-            // On ground of two sides, through which nobody comes, the nearest tells what is level.
+            // On two-sided ground, which nothing passes through, the nearest decides alone what is level.
             let is_met = !self.ground.is_one_sided() || !touched.is_left(one.facing);
             let rank = (is_met, is_free(&around, touched.point, one.facing), nearness);
             if best.is_none_or(|(known, _)| rank > known) {
@@ -105,7 +107,7 @@ impl OnGround<'_> {
         best.map_or(told(touched.triangle, touched.away), |(_, one)| told(one.number, one.facing))
     }
 
-    /// The triangles that hold a point.
+    /// The triangles that contain a point.
     fn around(&self, point: DVec3, corners: [DVec3; 3], seen_at: SeenAt) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
         let slack = ON_TRIANGLE * extent(corners);
@@ -124,7 +126,7 @@ impl OnGround<'_> {
             }
             if around.is_full() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        // Whatever the index hands over first.
+        // Independent of the order in which the tree visits them.
         around.sort_unstable_by_key(|one| one.number);
         around
     }
@@ -149,16 +151,17 @@ fn is_free(around: &[Around], point: DVec3, away: DVec3) -> bool {
 }
 
 impl Around {
-    /// The greatest cosine between a direction and any way that leads from a point of the triangle along it.
+    /// The greatest cosine between a direction and any vector that leads from a point of the triangle along the
+    /// triangle.
     ///
-    /// Those ways are all in its plane from inside, half of them from an edge, a wedge from a corner. Corners alone
-    /// would not do: of a sliver, those lie along the edge and hardly across.
+    /// From inside those are all vectors in its plane, from an edge half of them, from a corner a wedge. Vectors to the
+    /// corners alone would not do: in a sliver they lie along the edge, and hardly across it.
     fn rise(&self, point: DVec3, away: DVec3) -> f64 {
         let [a, b, c] = self.corners;
         let slack = 4.0 * ON_TRIANGLE * extent(self.corners);
         let flat = away - self.facing * self.facing.dot(away);
         let front = normal_of(self.corners);
-        // Edges that hold the point: along, and inwards.
+        // Edges that contain the point: unit vectors along them and inwards.
         let mut held = ArrayVec::<(DVec3, DVec3), 3>::new();
         for (from, to) in [(a, b), (b, c), (c, a)] {
             let (along, inwards) = (to - from, front.cross(to - from));
@@ -177,7 +180,7 @@ impl Around {
     }
 }
 
-/// Where the bounding sphere of ground is, in its own axes, and its radius.
+/// The centre of the bounding sphere of ground, in its own axes, and its radius.
 pub(super) fn sphere_of(ground: Ground) -> (DVec3, f64) {
     match ground {
         Ground::Mesh(mesh) => (mesh.center().as_dvec3(), mesh.outer_radius().into()),

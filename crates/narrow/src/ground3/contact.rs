@@ -2,88 +2,91 @@
 //!
 //! ```text
 //! for each convex part of the body:
-//!   a sphere has a short way of its own                                                                 (round)
-//!   its vertices in the ground's axes                                                                (standing)
+//!   a sphere takes a fast path of its own                                                         (round)
+//!   its vertices are transformed to the ground's axes                                             (standing)
 //!   for each triangle near its box, several read at a time:
-//!     all of the part is further from the plane than wanted, on whichever side: done
-//!     the side it is on: of one-sided ground the plane's, and its front alone counts; of other ground that of the
-//!         surface around the point nearest to the part's centre                           (Facet::has_in_front)
-//!     no edge or corner stands out near the part, or the part's lowest vertex is well inside:
-//!         the triangle's own normal                                                           (closer, prism)
-//!     an axis that costs little parts them: done; of a cuboid, any of thirteen                   (standing, axes)
-//!     its corner or edge has spoken through a neighbour: done                                   (outstanding)
-//!     a corner or edge of it stands well inside the part's face: that face's normal, if it is let through   (against)
-//!     of a cuboid that overlaps it, the least deep axis is refused: no need to ask the kernels           (axes)
-//!     of one that a gap parts from it, the nearest points are, in closed form: as little                  (gap)
-//!     else the kernels of part and triangle: their axis, if the feature's neighbours let it through   (meeting)
-//!         else the triangle's own normal, unless a contact with others frees the part from it, too
-//!   where the part is deep in a flat patch, what is deeper over the rest of it                           (whole, rim)
-//!   points go to the group of their normal                                                            (groups)
-//!   yes or no: a segment of the part that crosses the triangle inside, or all of it above; else exactly
-//!   what is nearer, in a gap along what ground refused                                              (unsaid)
-//!   what many low bends hide of the least of all                                                 (overlooked)
-//!   groups are told as manifolds, their errors with what low bends may hide                 (answer, protrusion)
+//!     all of the part is further from the plane than the reach, on either side: done              (over)
+//!     the side that the part is on: for one-sided ground that of the plane, and only the front counts; for other
+//!         ground that of the surface around the triangle's point nearest to the part's centre     (facet)
+//!     no prominent edge or corner (convex, or on the rim) near the part, or its lowest vertex well inside:
+//!         the triangle's normal                                                                   (closer, prism)
+//!     a cheap axis separates them by more than the reach: done; any of a cuboid's thirteen        (standing, axes)
+//!     the edge or corner that is in reach has a contact through a neighbour already: done         (outstanding)
+//!     an edge or corner lies well inside the part's face: that face's normal, if accepted         (against)
+//!     a cuboid overlaps it, and the axis of least depth is rejected: no kernel is called          (axes)
+//!     a cuboid is across a gap: closest points in closed form; if rejected, no kernel either      (gap)
+//!     else the kernels for part and triangle: their axis, if the feature's neighbours accept it   (meeting)
+//!         else the triangle's normal, unless a contact with other triangles frees it              (refused)
+//!   where the part penetrates a flat patch: deeper points over the rest of that                   (whole, rim)
+//!   contact points join the group of their normal                                                 (groups)
+//!   overlap, yes or no: a segment of the part crosses a triangle, or all of it is above; else exactly
+//!   closer points across a gap, along rejected directions                                         (unsaid)
+//!   a smaller separation that many low bends (edges too flat for a normal of their own) may hide  (overlooked)
+//!   each group becomes a manifold; its error includes what low bends may hide                     (answer, protrusion)
 //! ```
-//! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature among *all* ground
-//! around it: an edge gives a direction that leans towards neither face, a corner one that leans along none of its
-//! edges. What flat and concave edges would give is refused, and the triangle's own normal stands in.
+//! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature, judged with *all*
+//! ground around that feature: an edge's direction must lean towards neither face beside it, a corner's along none of
+//! its edges. Directions from flat and concave edges are rejected, and the triangle's normal takes their place.
 //!
-//! It tells nothing deep of a triangle that the part does not meet: what lies over a ridge, on one slope of a roof, is
-//! behind the other's plane, and by how much is no depth. Where the part is deep in ground that lies in the triangle's
-//! plane and hangs together with it, it leaves all of that at once, and its depth is that of the whole. What is deep is
-//! so at any margin: a larger one adds what a gap parts from the part, and nothing else (see `whole`).
+//! No penetration is reported for a triangle that the part does not meet: a body over one slope of a roof is behind the
+//! plane of the other slope, but its distance behind that plane is not a depth. Where the part penetrates connected
+//! ground in the triangle's plane, it leaves all of that at once, so its depth is the depth in the whole patch.
+//! Penetrating points are the same at any margin: a larger margin adds points across a gap, and nothing else (see
+//! `whole`).
 //!
-//! That normal may be a bad one: of a box that leans over a cliff, a triangle of the cliff's top whose corner alone
-//! lies in the box is left by the box sideways along the cliff, which its neighbours refuse; straight up would throw
-//! the box onto the cliff. So triangles whose axis was refused wait until all others have been heard: where a move
-//! along one of their normals by its depth leaves such a triangle too, it has nothing to add (see `refused`). Nor has
-//! two-sided ground that is seen from behind across a gap, where it lies below what the part stands on (`behind`).
+//! The triangle's normal may be a bad substitute. Take a box that leans over a cliff, and a triangle of the cliff's top
+//! of which only a corner lies in the box: the box leaves it sideways along the cliff, a direction that the triangle's
+//! neighbours reject; straight up would throw the box onto the cliff. So triangles whose axis was rejected wait until
+//! all others have been processed: they add nothing if moving the part along another normal found, by the depth along
+//! that normal, separates it from them too (see `refused`). Nor does two-sided ground that is seen from behind across a
+//! gap, where it lies below what the part stands on (`behind`).
 //!
-//! **The short way.** Where the lowest vertex of the part is over the triangle, in a gap of the cores it is the closest
-//! point, and the normal is the answer. In overlap by h, a direction that leans by the angle a over an edge r away is
-//! at least r sin a + h cos a deep, and so no better than the normal's h as long as r >= h tan(a / 2); up to a right
-//! angle, as long as r >= h. Only beyond that the kernels are asked.
+//! **The fast path.** Say that the part's lowest vertex is over the triangle. Across a gap of the cores it is the
+//! closest point, and the triangle's normal is the answer. In overlap by h, a direction that leans by the angle a over
+//! an edge at a distance r has a depth of at least r sin a + h cos a. So it is no better than the normal with its h as
+//! long as r >= h tan(a / 2); for angles up to a right angle, as long as r >= h. Only otherwise the kernels (the
+//! general routines for two convex shapes) are called.
 //!
 //! **What else saves time.** AMD EPYC, Zen 4, 2 virtual cores, 2026-11-22; first a box of a metre on triangles of half
 //! a metre, on a busy machine, then whole frames of a thousand bodies that roll over hills of 20,000 triangles, in
 //! instructions per body:
 //! 1. triangles of one flat patch share plane, heights and incident face: 6.2 us to 4.0 on a plane, with 3;
-//! 2. before the kernels, axes that cost little: the part's own, across two edges, and from the nearest point to the
-//!    centre; and a triangle whose only corner or edge in reach has spoken through a neighbour is passed over: 23 us to
-//!    10.5 on bumps;
-//! 3. what is large (points by groups, vertices) is filled where it stays: moved, it was a tenth of the time;
-//! 4. a short way for spheres: 8.0 k to 6.5 k;
-//! 5. the least deep axis of a cuboid that overlaps a triangle, where ground refuses it anyway: kernels are asked 610
-//!    times in place of 1,595, 35.2 k to 31.5 k for cuboids;
-//! 6. planes before sides, the least and greatest of eight heights before the place they have, a cuboid's face by its
-//!    normal: 31.5 k to 27.8 k;
-//! 7. no cuts on sides beyond reach, no calls of `map`, points reduced where they are: 27.8 k to 25.2 k;
-//! 8. vertices turned eight by eight, the box taken from them, and no points made along what ground refuses: 40.7 k to
-//!    36.3 k for hulls of 32;
+//! 2. before the kernels, cheap axes: the part's own, across two edges, and from the nearest point to the centre; and a
+//!    triangle whose only corner or edge in reach has a contact through a neighbour is skipped: 23 us to 10.5 on bumps;
+//! 3. large structures (points by groups, vertices) are filled in place: moving them took a tenth of the time;
+//! 4. a fast path for spheres: 8.0 k to 6.5 k;
+//! 5. the axis of least depth for a cuboid that overlaps a triangle, where ground rejects it anyway: kernels are called
+//!    610 times instead of 1,595, 35.2 k to 31.5 k for cuboids;
+//! 6. tests of planes before tests of sides, the least and greatest of eight heights before their indices, a cuboid's
+//!    face from the normal: 31.5 k to 27.8 k;
+//! 7. sides beyond reach not clipped, no calls of `map`, points reduced in place: 27.8 k to 25.2 k;
+//! 8. vertices transformed eight at a time, the box taken from them, and no points made along rejected directions:
+//!    40.7 k to 36.3 k for hulls of 32;
 //! 9. triangles near a body read together: on a million of them spheres are 10 to 25 % faster where other work uses the
 //!    caches, and 7 % slower on an idle machine;
-//! 10. triangles read without blanks, nothing counted around a furthest vertex that is alone: 2 to 4 % fewer
-//!     instructions;
-//! 11. a cuboid's gap in closed form; what ground refuses asked for closest points alone; a plane, axes and groups that
-//!     stay where they are, a face's sides made once a triangle, sides of ground told without roots where all agree:
-//!     62.0 k to 51.6 k for cuboids, which are asked more by now than at 10, 41.6 k to 39.7 k for hulls (2026-11-23);
-//! 12. with the mesh it is known which triangles bend low; planes out of reach by the box around the part, sides told
-//!     by edges that bend away, what was refused kept as it was: 33.0 k to 28.4 k for cuboids, 38.3 k to 35.3 k for
-//!     hulls, in the first seven frames (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24). A ball pays 1 % for what it
-//!     does not use;
-//! 13. of a cuboid's axes gaps alone, heights of eight vertices in a call of their own, corners out of reach dropped
-//!     before a call, no closed forms asked for first: 50.3 k to 47.9 k for cuboids, 35.7 k to 34.7 k for hulls, in
-//!     frames 3 to 12, and 6.2 k to 6.0 k for spheres (callgrind, 2026-11-28).
+//! 10. triangles read without placeholders to overwrite, no vertices counted where a single one is furthest: 2 to 4 %
+//!     fewer instructions;
+//! 11. a cuboid's gap in closed form; only closest points asked for where ground rejects the direction; a plane, axes
+//!     and groups filled in place, a face's sides made once per triangle, the side of the ground decided without roots
+//!     where all normals agree: 62.0 k to 51.6 k for cuboids, about which more is asked by now than at 10, 41.6 k to
+//!     39.7 k for hulls (2026-11-23);
+//! 12. the mesh stores which triangles have low bends; planes out of reach are found by the box around the part, the
+//!     part's side at edges that bend away, what was rejected is kept as it was: 33.0 k to 28.4 k for cuboids, 38.3 k
+//!     to 35.3 k for hulls, in the first seven frames (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24). A ball pays 1 %
+//!     for what it does not use;
+//! 13. only the gaps of a cuboid's axes are stored, heights of eight vertices computed in a function of their own,
+//!     corners out of reach dropped before a call, no closed forms tried first: 50.3 k to 47.9 k for cuboids, 35.7 k to
+//!     34.7 k for hulls, in frames 3 to 12, and 6.2 k to 6.0 k for spheres (callgrind, 2026-11-28).
 //!
-//! The kernels take some 20 k instructions still each time that they make points, 12 k where ground refuses the
-//! closest: for three rolling cuboids in eight, and five hulls in nine. A world asks only about bodies that cannot be
-//! moved along.
+//! The kernels still take some 20 k instructions each time that they make points, and 12 k where ground rejects the
+//! closest: for three rolling cuboids in eight, and five hulls in nine. A world calls all this only for bodies whose
+//! manifolds cannot be moved along.
 //!
-//! **Yes or no** is exact, as everywhere: of all triangles that see the part. What is not settled by rounding bounds is
-//! asked last, the likeliest first, and no further than the first yes.
+//! **Overlap, yes or no,** is exact, as everywhere, over all triangles that face the part. What rounding bounds do not
+//! settle is decided last, the likeliest first, up to the first yes.
 //!
-//! **Half-spaces** have one normal and no end: every triangle is looked at, and the lowest corners count. Cost: linear
-//! in the ground.
+//! **Half-spaces** have a single normal and no bounds: every triangle is visited, and the corners that reach deepest
+//! count. Cost: linear in the ground.
 
 mod against;
 mod answer;
@@ -135,11 +138,11 @@ pub(super) use standing::{doubt_of, span_of};
 use unsaid::AllUnsaid;
 use whole::touching;
 
-/// Triangles whose yes or no waits until all have been seen.
+/// Most triangles whose overlap decision waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
 
-/// Whether a body and ground overlap if they are within the margin; their manifolds go where they are wanted. Nothing
-/// where neither is ground; grounds have no contacts with each other.
+/// Whether a body and ground overlap, if they are within the margin; their manifolds go where they are wanted. `None`
+/// where neither shape is ground. Two grounds have no contacts with each other.
 pub(crate) fn contact_on_ground(
     pair: &Pair3,
     margin: f32,
@@ -148,7 +151,7 @@ pub(crate) fn contact_on_ground(
     contact_by(pair, margin, manifolds, false)
 }
 
-/// The same, by the short ways or without them.
+/// The same, with the fast paths, or by the general path alone.
 #[inline]
 fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bool) -> Option<Option<bool>> {
     let on = OnGround::of(pair)?;
@@ -167,7 +170,7 @@ fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bo
     Some(found)
 }
 
-/// What is asked of a body on ground.
+/// A query: contacts of a body on ground within a margin.
 struct Asking<'a> {
     on: &'a OnGround<'a>,
     /// The body's and the ground's.
@@ -175,40 +178,40 @@ struct Asking<'a> {
     margin: f32,
     /// The widest gap in which a point is wanted, in metres.
     reach: f64,
-    /// By the general way alone: what the short ways are held against.
+    /// By the general path alone, which tests compare the fast paths with.
     is_plain: bool,
 }
 
-/// What is known of a part so far.
+/// What has been found for a part so far.
 struct Known {
     groups: Groups,
-    /// Settled beyond rounding.
+    /// Overlap has been proved, beyond rounding error.
     overlapping: bool,
-    /// The triangle that showed it first.
+    /// The first triangle for which it was.
     shown_by: Option<u32>,
-    /// Triangles that f64 could not tell of.
+    /// Triangles for which f64 could not decide.
     unclear: ArrayVec<Unclear, MOST_UNCLEAR>,
-    /// Triangles that are seen from behind, across a gap.
+    /// Triangles that are seen from behind, across a gap, and wait.
     behind: AllBehind,
-    /// Triangles whose axis was refused.
+    /// Triangles whose axis was rejected, and which wait.
     refused: AllRefused,
-    /// Triangles in a gap whose axis was refused.
+    /// Closest points across a gap whose direction was rejected.
     unsaid: AllUnsaid,
     incident: Option<Incident>,
-    /// Bounds on how near triangles can be that spoke by their own normals.
+    /// Lower bounds on the separation of triangles that have low bends.
     levels: Levels,
 }
 
-/// A triangle of which f64 cannot tell whether the part shares a point with it.
+/// A triangle for which f64 cannot decide whether the part shares a point with it.
 #[derive(Clone, Copy)]
 struct Unclear {
-    /// Whether any point was made of it.
+    /// Whether it gave any contact point.
     has_points: bool,
     separation: f64,
     number: u32,
 }
 
-/// A part among the triangles.
+/// A part that is being tested against triangles.
 struct Seen<'s> {
     asking: &'s Asking<'s>,
     standing: &'s Standing<'s>,
@@ -219,8 +222,8 @@ struct Seen<'s> {
 }
 
 impl<'a> Asking<'a> {
-    /// Whether a part overlaps, if it is within the margin. Once it is known that another part does, its own yes or no
-    /// is of no interest.
+    /// Whether a part overlaps, if it is within the margin. Once another part is known to overlap, this part's own
+    /// decision does not matter.
     fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
         if let (Shape3::Sphere(sphere), false) = (part.shape, self.is_plain) {
             let round = Round::new(self.on, &part, sphere.radius().into(), self.reach);
@@ -291,7 +294,7 @@ impl Known {
 }
 
 impl Seen<'_> {
-    /// Looks at one triangle; `plane` is that of the one before.
+    /// Processes one triangle; `plane` is that of the one before.
     fn look_at(&self, near: &NearTriangle, plane: &mut Option<Plane>, known: &mut Known) {
         count_step();
         if self.is_ball {
@@ -307,7 +310,7 @@ impl Seen<'_> {
         }
     }
 
-    /// The face that the part turns to a normal.
+    /// The part's incident face for a normal; the last one is cached.
     #[inline(always)]
     fn incident_to(&self, normal: DVec3, known: &mut Known) -> Incident {
         match known.incident {
@@ -316,9 +319,9 @@ impl Seen<'_> {
         }
     }
 
-    /// Adds points by a triangle's own normal. Where it is seen from behind, or from in front by what is behind its
-    /// plane, deep ones only if part and triangle meet: what lies over a bend may be behind the plane of a triangle,
-    /// and nowhere near the triangle itself.
+    /// Adds points along the triangle's normal. Where the triangle is seen from behind, or from in front by a part
+    /// whose centre is behind its plane, penetrating points are added only if part and triangle meet: a part beyond a
+    /// bend may be behind the plane of a triangle, and nowhere near the triangle itself.
     fn add_where_met(&self, prism: &Prism, separation: f64, known: &mut Known) -> bool {
         let (least, may_meet) = (self.deep_below(prism), || self.may_meet(prism));
         let is_clear = || prism.facet.is_front && prism.facet.height(self.standing.center) >= 0.0;
@@ -338,7 +341,7 @@ impl Seen<'_> {
         prism.add_points(&incident, &mut known.groups)
     }
 
-    /// Keeps a triangle that f64 cannot tell of for later, or asks at once where there is no room.
+    /// Keeps a triangle that f64 cannot decide for later, or decides it exactly at once where there is no room.
     fn leave_unclear(&self, number: u32, (has_points, separation): (bool, f64), known: &mut Known) {
         if known.overlapping {
             return;
@@ -351,11 +354,11 @@ impl Seen<'_> {
         }
     }
 
-    /// Settles what was left open, and that overlap and points go together.
+    /// Decides what was left open, and makes overlap and contact points agree.
     fn conclude(&self, known: &mut Known, is_overlap_known: bool) {
         let slack = self.standing.slack;
         if !(known.overlapping || is_overlap_known && known.groups.least() >= -slack) {
-            // What made points first, of that the deepest.
+            // Triangles that gave points first, the deepest of those before others.
             known.unclear.sort_unstable_by(|a, b| {
                 let by_depth = a.separation.total_cmp(&b.separation);
                 b.has_points.cmp(&a.has_points).then(by_depth).then(a.number.cmp(&b.number))
@@ -374,8 +377,9 @@ impl Seen<'_> {
         self.say(known);
     }
 
-    /// What is deepest over a triangle that the part overlaps, where every point was cut away: over its sides, where the
-    /// part's lowest point is beside it. Where rounding leaves none of those, that point.
+    /// Adds the deepest point over a triangle that the part overlaps, where every point was clipped away: where the
+    /// part's lowest point is beside the triangle, over its sides. Where rounding leaves none of those, the lowest
+    /// point itself.
     #[cold]
     #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {
@@ -400,7 +404,7 @@ impl Seen<'_> {
         known.groups.add(&base, pin);
     }
 
-    /// What a height over a triangle may be off by, in metres.
+    /// Error bound of a height over a triangle, in metres.
     fn doubt_over(&self, facet: &Facet) -> f64 {
         let Standing { center, outer_radius, lengths, .. } = *self.standing;
         facet.doubt((center, outer_radius), lengths)

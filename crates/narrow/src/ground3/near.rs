@@ -1,24 +1,26 @@
-//! Which triangles of ground a convex part may touch.
+//! Ground and a body beside it: their frames, and which triangles a convex part may touch.
 
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 
-/// Where a part is, as it is asked on which side of a triangle that is.
+/// A part's position, for deciding which side of a triangle it is on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum SeenAt {
     /// The centre of its bounding sphere.
     Place(DVec3),
-    /// Far off in a unit direction: into a half-space, whose position is any point of its plane.
+    /// At infinity in a unit direction: for a half-space the direction into it, as its position is an arbitrary point
+    /// of its plane.
     Far(DVec3),
 }
 
-/// Sine of the angle by which what is far off may be behind a triangle, and counts as aside: as in front.
+/// Sine of the angle by which a direction may point behind a triangle and still count as parallel to it, and so as in
+/// front.
 const ASIDE: f64 = 1e-9;
 
 impl SeenAt {
-    /// Whether it is in front of a triangle, by a corner of that and its normal, of any length.
+    /// Whether it is in front of a triangle, given by one of its corners and its normal, of any length.
     #[inline]
     pub(crate) fn is_in_front(self, corner: DVec3, normal: DVec3) -> bool {
         match self {
@@ -45,7 +47,7 @@ pub(crate) struct OnGround<'a> {
 }
 
 impl<'a> OnGround<'a> {
-    /// Where one shape is ground. Of two, B is; the other is the body.
+    /// `None` where neither shape is ground. If both are, B is the ground and A the body.
     #[inline]
     pub(crate) fn of(pair: &Pair3<'a>) -> Option<Self> {
         let (a, b) = (Ground::of(pair.shape_a), Ground::of(pair.shape_b));
@@ -71,8 +73,8 @@ impl<'a> OnGround<'a> {
         }
     }
 
-    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards,
-    /// from that around its core as good as f64 has it. Everything, for a half-space.
+    /// The box around a convex part of the body in the ground's axes, grown by `reach` metres and rounded outwards;
+    /// computed from the f64 box around its core. Infinite for a half-space.
     pub(crate) fn bounds_around(&self, part: &Part, [low, high]: [DVec3; 2], reach: f64) -> Aabb3 {
         if matches!(part.shape, Shape3::HalfSpace(_)) {
             return Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
@@ -82,8 +84,7 @@ impl<'a> OnGround<'a> {
         grown_around([low, high], f64::from(part.shape.radius()) + reach, lengths)
     }
 
-    /// Where a part's own origin is in the ground's axes, and how long the vectors are that this is a sum of, in
-    /// metres.
+    /// A part's origin in the ground's axes, and the summed lengths of the vectors that make it up, in metres.
     #[inline]
     pub(crate) fn origin_of(&self, part: &Part) -> (DVec3, f64) {
         let (_, shift) = part.placed(&self.body_basis);
@@ -91,15 +92,14 @@ impl<'a> OnGround<'a> {
     }
 }
 
-/// A box that holds all between two corners and so many metres around them, which are off by what rounding takes from
-/// such lengths.
+/// The box between two corners, grown by `grow` metres and by the rounding error that comes with such lengths.
 #[inline]
 pub(crate) fn grown_around([low, high]: [DVec3; 2], grow: f64, lengths: f64) -> Aabb3 {
     let grow = DVec3::splat(grow + 64.0 * f64::EPSILON * lengths);
     box_around([low - grow, high + grow])
 }
 
-/// A box that holds all between two corners: rounded outwards, one step further than the nearest.
+/// The box between two corners, rounded outwards: one step beyond the nearest f32.
 pub(crate) fn box_around([low, high]: [DVec3; 2]) -> Aabb3 {
     let low = low.as_vec3().to_array().map(f32::next_down);
     let high = high.as_vec3().to_array().map(f32::next_up);
@@ -107,8 +107,7 @@ pub(crate) fn box_around([low, high]: [DVec3; 2]) -> Aabb3 {
 }
 
 impl OnGround<'_> {
-    /// What belongs to the body and to the ground, as A's and B's; or what is A's and B's, as the body's and the
-    /// ground's.
+    /// Reorders a pair from (body, ground) to (A, B), or back.
     #[inline]
     pub(crate) fn in_order<T>(&self, [one, other]: [T; 2]) -> [T; 2] {
         if self.is_b { [one, other] } else { [other, one] }
@@ -120,8 +119,8 @@ impl OnGround<'_> {
         if self.is_b { -normal } else { normal }
     }
 
-    /// Where a point of a manifold is on the body, from its position, and on ground, from the ground's; in world axes.
-    /// The latter better than by its anchor, which is as coarse as ground is large.
+    /// The ends of a contact point on the body, from its position, and on ground, from the ground's, in world axes. The
+    /// latter is computed from the former: its anchor is rounded the more the larger the ground is.
     pub(crate) fn ends(&self, manifold: &Manifold3, point: &ContactPoint3) -> [DVec3; 2] {
         let [on_body, _] = self.in_order([point.anchor_a, point.anchor_b]);
         let on_body = on_body.as_dvec3();

@@ -9,10 +9,10 @@ use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Ground, NearTriangle};
 use core::ops::ControlFlow;
 
-/// Most triangles that are looked at: bodies with more around them are not kept for long.
+/// Most triangles that are read: bodies with more around their points are not kept for long.
 const MOST: usize = 48;
 
-/// Sine of the greatest angle to a manifold's normal at which triangles may be part of what it stands for: beyond, they
+/// Sine of the greatest angle to a manifold's normal at which triangles may still belong to that manifold: beyond, they
 /// have one of their own.
 const MOST_BETWEEN: f64 = 8.0 * SAME_NORMAL;
 
@@ -20,12 +20,12 @@ const MOST_BETWEEN: f64 = 8.0 * SAME_NORMAL;
 pub(super) struct NearPoints<'a> {
     ground: Ground<'a>,
     triangles: ArrayVec<NearTriangle, MOST>,
-    /// Whether there were more.
+    /// Whether there were more than are kept.
     is_cut: bool,
 }
 
 impl<'a> NearPoints<'a> {
-    /// Around all points of some manifolds, as far as so many metres.
+    /// Around all points of some manifolds, within a drift of `reach` metres.
     pub(super) fn of(on: &OnGround<'a>, manifolds: &[Manifold3], reach: f32) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for manifold in manifolds {
@@ -48,12 +48,12 @@ impl<'a> NearPoints<'a> {
         near
     }
 
-    /// Where a point on ground may come to another patch than its own, whose unit normal is known, within so many
-    /// metres: what it costs is the sine of the greatest angle to that normal. Where ground ends or folds back, nobody
-    /// knows.
+    /// Where a point on ground may come to a patch other than its own, which has this unit normal, within `reach`
+    /// metres: the cost is the sine of the greatest angle to that normal. It is unknown where ground ends or folds
+    /// back.
     pub(super) fn seam_around(&self, foot: DVec3, (normal, patch): (DVec3, u32), reach: f64) -> Seam {
         let unknown = Seam { free: 0.0, cost: UNKNOWN };
-        // Seen from behind, all that goes on from it is.
+        // If the patch is seen from behind, so is the ground that continues it.
         let Some(own) = self.triangles.iter().find(|triangle| triangle.patch == patch) else {
             return unknown;
         };
@@ -68,7 +68,7 @@ impl<'a> NearPoints<'a> {
             let [a, b, c] = widened(triangle.corners);
             let cross = (b - a).cross(c - a);
             let area = cross.length();
-            // How far above the plane it is, and beside a side of the triangle: no nearer than both is the triangle.
+            // The height above the plane, and the distance beside a side: the triangle is no nearer than both together.
             let beside = |from: DVec3, to: DVec3| {
                 let side = to - from;
                 side.cross(cross).dot(foot - from) / (side.length() * area)
@@ -76,7 +76,7 @@ impl<'a> NearPoints<'a> {
             let height = cross.dot(foot - a).abs() / area;
             let aside = beside(a, b).max(beside(b, c)).max(beside(c, a)).max(0.0);
             let away = (height * height + aside * aside).sqrt();
-            // What is not a number is not beyond.
+            // NaN is not beyond.
             if away > reach {
                 continue;
             }
@@ -95,8 +95,8 @@ impl<'a> NearPoints<'a> {
         if is_on && !self.is_cut { seam } else { unknown }
     }
 
-    /// How far ground may bend between points of one manifold: the sine of the greatest angle to its unit normal of
-    /// triangles that have a bend too low to give a normal of its own. Zero where ground is a plane to the last bit.
+    /// How far ground may bend between the points of one manifold: the sine of the greatest angle to its unit normal,
+    /// of triangles with a bend too low to give a normal of its own. Zero where ground is a plane to the last bit.
     pub(super) fn bend_between(&self, normal: DVec3) -> f64 {
         if self.is_cut {
             return MOST_BETWEEN;
@@ -128,7 +128,7 @@ impl<'a> NearPoints<'a> {
         Some([corners[edge], corners[(edge + 1) % 3]])
     }
 
-    /// The triangle that a point is the furthest inside of, as seen along a normal of ground; of one patch, or of any.
+    /// The triangle that a point is furthest inside of, seen along a normal of the ground; of one patch, or of any.
     pub(super) fn under(&self, foot: DVec3, normal: DVec3, patch: Option<u32>) -> Option<[DVec3; 3]> {
         let mut best = (f64::NEG_INFINITY, None);
         for triangle in &self.triangles {
@@ -148,7 +148,7 @@ impl<'a> NearPoints<'a> {
     }
 }
 
-/// The sine of the angle between a direction of any length and a unit normal; nothing beyond a right angle.
+/// The sine of the angle between a direction of any length and a unit normal; `None` beyond a right angle.
 fn bend_of(direction: DVec3, normal: DVec3) -> Option<f64> {
     let sine = direction.cross(normal).length() / direction.length();
     (direction.dot(normal) > 0.0).then_some(sine.min(1.0))

@@ -1,4 +1,4 @@
-//! What holds a contact point on ground, and how it rises as the body moves.
+//! The two features that hold a contact point on ground, and how it rises as the body moves.
 
 use super::flat::NearPoints;
 use super::hold::{Edge, face_normal, inside};
@@ -8,11 +8,11 @@ use crate::ground3::OnGround;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 
-/// How a point rises by how the body's matter there moves.
+/// How a point rises with the motion of the body's matter there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grip {
-    /// In world axes.
+    /// The gradient of the rise, in world axes.
     gradient: Vec3,
     /// By how much that differs from the normal.
     lean: f32,
@@ -20,8 +20,8 @@ pub(super) struct Grip {
     is_of_ground: bool,
 }
 
-/// Where a point may leave what holds it: how far the body may go before, in metres, and what it costs beyond, as a
-/// share of the whole way.
+/// Where a point may leave the features that hold it: how far the body may move before, in metres, and the error
+/// charged beyond that, as a share of the whole motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seam {
     pub(super) free: f64,
@@ -32,17 +32,18 @@ impl Seam {
     /// Nowhere.
     pub(super) const NONE: Self = Self { free: f64::INFINITY, cost: 0.0 };
 
-    /// How far the body may go if that may cost so many metres.
+    /// How far the body may move if the error may grow by `most` metres.
     pub(super) fn reach(&self, most: f64) -> f64 {
         self.free.max(most / self.cost)
     }
 }
 
-/// What it costs where nobody knows what comes next: by the way, the truth may have gone, and by as much what is told,
-/// the other way.
+/// The cost where the next feature is unknown: the true separation may have changed by the whole motion one way, and
+/// the reported one by as much the other way.
 pub(super) const UNKNOWN: f64 = 2.0;
 
-/// Cosine of the angle between a normal and what a point is measured from, above which it is.
+/// Least cosine of the angle between the manifold's normal and the normal of what a point is measured from, for a point
+/// that is kept.
 const LEAST_COSINE: f64 = 0.125;
 
 /// What rounding a unit vector to f32 may turn it by.
@@ -51,7 +52,7 @@ const ROUNDED: f64 = f32::EPSILON as f64;
 impl Grip {
     pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, is_of_ground: false };
 
-    /// What holds a point, and where it may leave that; nothing where nobody knows what holds it.
+    /// The grip of a point, and where it may leave it; `None` where it is not known what holds the point.
     pub(super) fn of(
         on: &OnGround,
         manifold: &Manifold3,
@@ -60,8 +61,8 @@ impl Grip {
     ) -> Option<(Self, Seam)> {
         let (normal, reach) = (on.towards(manifold), f64::from(reach));
         if matches!(on.body, Shape3::Sphere(_)) {
-            // Whatever ground is under it next, its normal turns from this one by no more than the way over how far
-            // the centre is from it: the way around the ball, which moving along charges for.
+            // Whatever ground is under it next, the normal turns by no more than the motion over the distance from the
+            // centre to that ground: the ball's curvature, which `Grounded::loss` charges for.
             return Some((Self::along(normal, normal, false)?, Seam::NONE));
         }
         let [of_body, of_ground] = on.in_order([point.feature.a(), point.feature.b()]);
@@ -70,7 +71,7 @@ impl Grip {
         let normal_there = on.basis.turn_back(normal);
         let (grip, seam) = match (of_body, of_ground) {
             (Feature::Vertex(_), Feature::Face(patch)) => {
-                // Kernels may tell of it along another normal than the triangle's own.
+                // Kernels may report it along a normal other than the triangle's.
                 let [a, b, c] = near.under(foot, normal_there, Some(patch))?;
                 let own = (b - a).cross(c - a).try_normalize()?;
                 let seam = near.seam_around(foot, (own, patch), reach);
@@ -87,7 +88,8 @@ impl Grip {
                 let across =
                     on.body_basis.turn(own.along).cross(on.basis.turn((stop - from).try_normalize()?));
                 let (sine, place) = (across.length(), own.along.dot(local - own.from));
-                // How far either end is at least: it slides along by no more than the drift over the sine.
+                // A lower bound on the distance to any end: the crossing slides by no more than the drift over the
+                // sine.
                 let ends =
                     place.min(own.length - place).min((foot - from).length()).min((foot - stop).length());
                 let around = match on.body {
@@ -100,12 +102,12 @@ impl Grip {
             }
             _ => return None,
         };
-        // Along a normal that leans, a point goes further than the body does.
+        // Along a normal that leans, a point moves further than the body does.
         let free = seam.free / f64::from(grip.steep());
         Some((grip, if free >= reach { Seam::NONE } else { Seam { free: free.max(0.0), ..seam } }))
     }
 
-    /// Of what is measured along a normal from what this direction is square to.
+    /// For a point measured along a normal, from a plane that `direction` is square to.
     fn along(direction: DVec3, normal: DVec3, is_of_ground: bool) -> Option<Self> {
         let cosine = direction.dot(normal);
         let gradient = direction / Some(cosine).filter(|cosine| cosine.abs() >= LEAST_COSINE)?;
@@ -133,16 +135,17 @@ impl Grip {
         1.0 + self.lean
     }
 
-    /// Whether it can be one: of what was read from a file.
+    /// Whether it is a possible one: for data that was read from a file.
     pub(super) fn is_sound(&self) -> bool {
         let most = 2.0 / LEAST_COSINE as f32;
         self.gradient.is_finite() && self.gradient.length() <= most && (0.0..=most).contains(&self.lean)
     }
 }
 
-/// What it costs, as a share of the way, where an edge of ground stops to cross one side of a cuboid's face, at an
-/// angle of this sine, and crosses the next: both places are on the face, and so far from the corner; how steep it is
-/// by a direction in the cuboid's axes. Nothing where it is all but along either.
+/// The cost, as a share of the motion, where an edge of ground stops crossing one side of a cuboid's face, at an angle
+/// of this sine, and crosses the next: both crossings are on the face, the motion over the sine and over the cosine
+/// from its corner. How steep the face is follows from the normal in the cuboid's axes. `None` where the edge is nearly
+/// along either side.
 fn around_corner(normal: DVec3, sine: f64) -> Option<f64> {
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
     let level = normal.abs().max_element();

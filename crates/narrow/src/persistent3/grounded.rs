@@ -1,31 +1,35 @@
 //! The manifolds of a body on ground, moved along.
 //!
-//! A body that rests on a level is answered anew at several times the cost of one that rests on a box: triangles are
-//! found, read, and each is asked about. But ground does not move, and its normals do not: while the body slides a
-//! little, each point goes on being where the same two features meet, and rises as they do.
+//! A body at rest on ground costs several times what one on a box costs to answer anew: triangles are found, read and
+//! tested. But ground does not move, and neither do its normals: while the body slides a little, each point stays where
+//! the same two features meet, and rises as they do.
 //!
 //! ```text
-//! t   how far the body's position moved; R how it turned; u = t + (R - 1) a, how its matter at a point moved
+//! t   how far the body's position moved; R how it turned; u = t + (R - 1) a, how its matter at a point a moved
 //! each point rises by g . u, where n is the normal from ground to body, and                                   (grip)
-//!     a corner of the body over a face f of ground, or a corner of ground against a face f of the body:
+//!     a vertex of the body over a face of ground, or a corner of ground under a face of the body, with normal f:
 //!                                                     g = f / (f . n)
-//!     an edge u' of it that crosses an edge v:        g = c / (c . n),  c = u' x v
-//! that is exact for t, as long as the features go on meeting: corners stay over faces, edges go on crossing    (flat)
-//! turning by `spin` adds  |g| |u| spin  and lets what was not told get deeper by up to  3 spin * arm
-//! yes or no:   no, while the drift is less than what parts them
-//!              yes, while a segment of the body crosses a triangle, or a point of ground is in the box      (witness)
+//!     an edge u' of the body that crosses an edge v:  g = c / (c . n),  c = u' x v
+//! that is exact for t, as long as the features meet: vertices stay over faces, edges go on crossing           (flat)
+//! turning by `spin` adds  |g| |u| spin  and lets points that are not reported get deeper by up to  3 spin * arm
+//! overlap:     no, while the drift is less than the gap between them
+//!              yes, while a segment of the body crosses a triangle, or a point of ground is in the box     (witness)
 //! ```
-//! **How far.** Up to 2^-8 of the radius, of a cube of a metre 3.4 mm. Which directions ground lets through is chosen
-//! anew only then. And no further than the margin: all that the body can come to overlap has been within the margin,
-//! and so has been told; with a smaller margin, up to 2^-15 as for solids. It ends, too, where the first point may
-//! leave its features, unless what that costs is bearable for longer: then it costs, from the start, a share of the
-//! drift, by how steeply ground bends at the next, and twice the drift where nobody knows; no further than that is
-//! 2^-14 of the radius. (Charged wherever the longest way would lead past a feature, frames of boxes and hulls at rest
-//! on hills took 1.05 to 1.23 times as long: AMD EPYC, Zen 5, 2026-11-25.) Ground between points rises otherwise than
-//! they do: twice the greatest of the low bends around them. A ball has no features to leave, and pays for the way
-//! around itself.
+//! **How far.**
+//! - Up to 2^-8 of the radius, 3.4 mm for a cube of a metre. Only then it is decided again which directions ground
+//!   accepts.
+//! - No further than the margin: all ground that the body can come to overlap was within the margin, and so was
+//!   reported. With a smaller margin, up to 2^-15, as for solids.
+//! - Up to where the first point may leave its features, or further where the error stays bearable. The error then
+//!   includes, from the start, a share of the drift: by how steeply ground bends at the next feature, or twice the
+//!   drift where that is unknown. Bearable is up to 2^-14 of the radius. (Charged wherever the longest motion would
+//!   lead past a feature, frames of boxes and hulls at rest on hills took 1.05 to 1.23 times as long: AMD EPYC, Zen 5,
+//!   2026-11-25.)
 //!
-//! parry3d keeps a manifold a triangle until a point of it slips by a millimetre.
+//! Ground between points rises differently from them: by twice the greatest of the low bends around them. A ball has no
+//! features to leave, and is charged for its curvature.
+//!
+//! parry3d keeps a manifold per triangle until a point of it slips by a millimetre.
 
 use super::flat::NearPoints;
 use super::grip::{Grip, Seam, UNKNOWN};
@@ -49,43 +53,42 @@ fn most_loss(radius: f32) -> f32 {
     2.0 * reach_of([radius; 2])
 }
 
-/// The manifolds of a body of one part on ground, and how it stood when they were made.
+/// The manifolds of a body of one part on ground, and the poses when they were computed.
 #[derive(Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Grounded {
     memory: Memory,
     is_ground_b: bool,
-    /// Nothing of it depends on how it is turned.
+    /// Whether the body is a ball: nothing depends on its rotation.
     is_ball: bool,
-    /// What it costs where points leave their features, as a share of the way: zero where none does, which bounds no
-    /// reach.
+    /// The error charged where points leave their features, as a share of the motion: zero where none does.
     cost: f32,
     margin: f32,
-    /// Up to which drift they hold, in metres.
+    /// The drift up to which they hold, in metres.
     reach: f32,
     /// Most that an error may grow by, in metres.
     most_loss: f32,
     /// How far the body reaches from its position, in metres.
     arm: f32,
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose3; 2],
 }
 
-/// The manifolds, what holds the points of each, and what shows that the two overlap; nothing where they do not.
+/// The manifolds, the grips of their points, and the proof that the two overlap; none where they do not.
 #[derive(Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Memory {
     manifolds: Vec<Manifold3>,
     grips: Vec<[Grip; 4]>,
-    /// At most one. Here for its size: whatever is kept takes the room of the largest that there is.
+    /// At most one. Stored here for its size: an enum takes the room of its largest variant.
     witness: Vec<Witness>,
 }
 
-/// Places where points may leave their features, of one body: four points a manifold, and what is between them. Bodies
-/// with more are not kept.
+/// Most places where points of a body may leave their features: four points per manifold, and the ground between them.
+/// Bodies with more are not kept.
 const MOST_SEAMS: usize = 80;
 
-/// Manifolds of most bodies: for so many there is room from the start.
+/// Most bodies have no more manifolds than this: room for so many is reserved from the start.
 const MANY: usize = 6;
 
 asunder_geometry::copied!(Grounded, { memory, is_ground_b, is_ball, cost, margin, reach, most_loss, arm, poses } but {});
@@ -103,7 +106,7 @@ impl Memory {
     }
 }
 
-/// The body of a job that has ground, if it is of one part and has an end; whether the ground is B.
+/// The body of a job that has ground, if it is of one part and bounded; and whether the ground is B.
 fn body_of<'a>(job: &Job3<'a>) -> Option<(&'a Shape3, bool)> {
     let (body, is_ground_b) = match (Ground::of(job.shape_a), Ground::of(job.shape_b)) {
         (None, Some(_)) => (job.shape_a, true),
@@ -113,7 +116,7 @@ fn body_of<'a>(job: &Job3<'a>) -> Option<(&'a Shape3, bool)> {
     (!matches!(body, Shape3::Compound(_) | Shape3::HalfSpace(_))).then_some((body, is_ground_b))
 }
 
-/// Up to which drift manifolds of a job can be moved along at most, in metres; nothing where there is no ground.
+/// The largest drift up to which manifolds of a job can be moved along, in metres; `None` without ground.
 pub(super) fn most_reach(job: &Job3<'_>) -> Option<f32> {
     body_of(job).map(|(body, _)| most_slide(body, job.margin))
 }
@@ -138,7 +141,7 @@ impl Grounded {
         let arm = arm_of(body);
         let mut reach = most_slide(body, job.margin);
         if !overlapping {
-            // What one-sided ground refuses is not told, and may part them by less than what is.
+            // Directions that one-sided ground rejects are not reported, and the gap along them may be smaller.
             let gap = match pair.separation(reach) {
                 Separation3::Measured(near) => near.separation - near.error,
                 Separation3::AtLeast(bound) => bound,
@@ -146,7 +149,7 @@ impl Grounded {
             let most = found.iter().fold(f32::INFINITY, |bound: f32, of| bound.min(of.separation + of.error));
             reach = reach.min(gap).min(job.margin - most).next_down();
         }
-        // What is not a number is no reach.
+        // NaN is no reach.
         let is_some = !found.is_empty() && reach > 0.0;
         if !is_some {
             return None;
@@ -155,7 +158,7 @@ impl Grounded {
         let mut seams: ArrayVec<Seam, MOST_SEAMS> = ArrayVec::new_const();
         memory.clear();
         for manifold in found {
-            // What is hidden between points may rise otherwise than they do, by as much as either normal leans.
+            // Ground that is hidden between points may rise differently from them, by as much as either normal leans.
             let between = 2.0 * near.bend_between(on.basis.turn_back(on.towards(manifold)));
             seams.try_push(Seam { free: 0.0, cost: between }).ok()?;
             let mut grips = [Grip::NONE; 4];
@@ -166,7 +169,7 @@ impl Grounded {
             }
             memory.grips.push(grips);
         }
-        // As far as no point leaves its features, or as what it costs is bearable.
+        // As far as no point leaves its features, or as the error stays bearable.
         let most_loss = most_loss(body.outer_radius());
         let furthest = seams.iter().map(|seam| seam.reach(most_loss.into())).fold(f64::INFINITY, f64::min);
         reach = reach.min((furthest as f32).next_down());
@@ -183,7 +186,7 @@ impl Grounded {
         Some(Self { memory, is_ground_b, is_ball, cost, margin, reach, most_loss, arm, poses })
     }
 
-    /// Its memory, for what comes after it. What is left carries nothing on.
+    /// Its memory, for reuse. What is left cannot be moved along.
     pub(super) fn take_memory(&mut self) -> Memory {
         self.reach = -1.0;
         core::mem::take(&mut self.memory)
@@ -219,7 +222,7 @@ impl Grounded {
             && witness.iter().all(Witness::is_sound)
     }
 
-    /// Which of two things is the body's and which the ground's.
+    /// Reorders a pair from (A, B) to (body, ground).
     #[inline(always)]
     const fn sides<T: Copy>(&self, [a, b]: [T; 2]) -> [T; 2] {
         if self.is_ground_b { [a, b] } else { [b, a] }
@@ -245,14 +248,14 @@ impl Grounded {
         let (arm, spin) = (f64::from(self.arm), turn.spin_from(&Basis3::UNIT));
         let drift = step.length() + spin * arm + lost(offset.abs().element_sum(), arm);
         let moved = Moved { turn, step, offset, drift, spin };
-        // What is not a number is not close.
+        // NaN is not close.
         let is_close = drift <= f64::from(self.reach);
         let is_certain =
             || self.memory.witness.iter().all(|witness| witness.holds(&moved, body.basis(), arm));
         is_close && is_certain() && self.move_along(&moved, to)
     }
 
-    /// Appends all of them as they are now; or nothing, where they would be off by too much.
+    /// Appends all manifolds as they are now, or none where the error would be too large.
     fn move_along(&self, moved: &Moved, to: &mut Vec<Manifold3>) -> bool {
         let start = to.len();
         for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
@@ -269,7 +272,7 @@ impl Grounded {
                 to.error = ((known + loss) as f32).next_up();
             }
         }
-        // The deepest of all has the sign of the decision.
+        // The deepest of all has the sign of the overlap decision.
         let deepest = to[start..]
             .iter_mut()
             .reduce(|least, next| if next.separation < least.separation { next } else { least });
@@ -279,21 +282,21 @@ impl Grounded {
         true
     }
 
-    /// What a manifold's separation may be off by more than it was.
+    /// By how much the error of a manifold's separation grows.
     fn loss(&self, of: &Manifold3, grips: &[Grip; 4], moved: &Moved) -> f64 {
         let Moved { drift, spin, .. } = *moved;
         let (mut lean, mut steep) = (0.0_f64, 1.0_f64);
         for grip in grips.iter().take(of.points.len()) {
             (lean, steep) = (lean.max(grip.lean().into()), steep.max(grip.steep().into()));
         }
-        // Of more points than four, and of those that lay on the line between two others, the ones that are not told
-        // may rise by less; and by more: then those that are told may be the nearest, and it is no deeper than they
+        // Points that are not reported, beyond four or on the line between two others, may rise by less than the
+        // reported ones; or by more: then the reported ones may be the nearest, and the manifold is no deeper than they
         // are.
         let least = of.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
         let beside = f64::from(least) - f64::from(of.separation);
         let untold = if of.points.is_full() || beside > 0.0 { lean * drift + beside.max(0.0) } else { 0.0 };
         let left = f64::from(self.cost) * drift;
-        // The way around a ball.
+        // The curvature of a ball.
         let round =
             if self.is_ball { around(f64::from(self.arm) + f64::from(of.separation), drift) } else { 0.0 };
         let rounding = f64::from(f32::EPSILON) * (f64::from(of.separation.abs()) + steep * drift);
@@ -325,20 +328,20 @@ impl Grounded {
     }
 }
 
-/// By how much more than in a line the distance to a point so far away changes on the way: too much, where that is not
-/// far beyond the way.
+/// By how much more than linearly the distance to a point this far away changes over a motion: infinite where that
+/// point is not far beyond the motion.
 fn around(distance: f64, way: f64) -> f64 {
     if distance > 2.0 * way { way * way / distance } else { f64::INFINITY }
 }
 
-/// How a body moved since, in world axes.
+/// How a body moved since its manifolds were computed, in world axes.
 pub(super) struct Moved {
     pub(super) turn: Basis3,
-    /// Of its position.
+    /// The motion of its position.
     pub(super) step: DVec3,
     /// From the ground's position to its own, now.
     pub(super) offset: DVec3,
-    /// No point of it moved further than that, in metres.
+    /// No point of the body moved further than this, in metres.
     drift: f64,
     /// By how much it turned, in radians.
     spin: f64,

@@ -1,11 +1,12 @@
-//! What holds a manifold to its bodies in space, and how wide: a face, two edges, or what is nearest across a gap.
+//! What a manifold of two solids is measured from, and how wide that is: a face, two edges, or the closest features
+//! across a gap.
 //!
-//! The last is what bricks of a wall have with those beside the ones below: two edges side by side, some millimetres
-//! apart, which nothing but the general path tells, in 11 k instructions. Kept, they cost 400: 17 % of a frame of a
-//! heap of 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
+//! The last occurs between bricks of a wall and those beside the bricks below: two edges side by side, some millimetres
+//! apart, which only the general path finds, in 11 k instructions. Kept, they cost 400: 17 % of a frame of a heap of
+//! 8,000 boxes (AMD EPYC, Zen 4, 2026-11-22, by instructions).
 //!
-//! Tried and dropped: a normal made anew, by the points across the gap or by the edges that cross. It leans by drift /
-//! gap, or drift / sine, and the far ends of the bodies then overlap along it by as much of their size.
+//! Tried and dropped: a normal computed again from the points across the gap, or from the edges that cross. It leans by
+//! drift / gap, or drift / sine, and the far ends of the bodies then overlap along it by that share of their size.
 
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, Hint, OnFace};
@@ -17,18 +18,19 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3};
 
-/// What holds a manifold.
+/// What a manifold is measured from.
 pub(super) struct Hold {
     /// Whether points are measured from a face of B.
     pub(super) is_from_b: bool,
-    /// How far the bodies reach to every side of it, in metres: zero where nobody knows.
+    /// How far the bodies reach to every side of it, in metres: zero where unknown.
     pub(super) width: f64,
-    /// Whether it leads from corner or edge to corner or edge across a gap: as bodies drift, it should lean.
+    /// Whether the normal leads from vertex or edge to vertex or edge across a gap: as bodies drift, it would have to
+    /// lean.
     pub(super) is_gap: bool,
 }
 
 impl Hold {
-    /// Of a manifold: nothing where it is not kept.
+    /// For a manifold: `None` where it is not kept.
     pub(super) fn of(job: &Job3<'_>, hint: Hint, manifold: &Manifold3, overlapping: bool) -> Option<Self> {
         if let Some(face) = measured_from(hint).filter(|face| is_normal_of(job, *face, manifold)) {
             let is_from_b = matches!(face, OnFace::OfB(_));
@@ -52,13 +54,13 @@ impl Hold {
     }
 }
 
-/// Whether a shape is one solid. Of several, another may come within the margin while the nearest is moved along.
+/// Whether a shape is a single solid. Of several, another may come within the margin while the nearest is moved along.
 const fn is_one(shape: &Shape3) -> bool {
     !matches!(shape, Shape3::Compound(_) | Shape3::TriMesh(_) | Shape3::HeightField(_))
 }
 
-/// Whether a manifold's normal is that of a face. Corners across a gap are hinted to by the face that all but parts
-/// them, and have a normal of their own.
+/// Whether a manifold's normal is that of a face. Corners across a gap may have a hint of the face that nearly
+/// separates them, and a normal of their own.
 fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
     let (shape, pose, face, out) = match face {
         OnFace::OfA(face) => (job.shape_a, job.pose_a, face as usize, 1.0),
@@ -71,14 +73,14 @@ fn is_normal_of(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> bool {
 /// The unit normal out of a face, in the axes of the shape.
 pub(super) fn face_normal(shape: &Shape3, face: usize) -> Option<DVec3> {
     match shape {
-        // A core of cuboids is made when it is asked for.
+        // A cuboid's core is built on demand.
         Shape3::Cuboid(_) if face < 6 => Some(DVec3::AXES[face / 2] * if face % 2 == 1 { 1.0 } else { -1.0 }),
         _ => shape.core().normals().get(face).copied(),
     }
 }
 
-/// By how much two edges reach out to every side of where they cross: nothing unless they do at more than half a
-/// degree, and the normal of a manifold is theirs.
+/// How far two edges reach to every side of their crossing: `None` unless they cross at more than half a degree, and
+/// the manifold's normal is square to both.
 fn crossing(job: &Job3<'_>, edges: [u32; 2], manifold: &Manifold3) -> Option<f64> {
     let point = manifold.points.first()?;
     let along = |(shape, pose): (&Shape3, &Pose3), edge: u32, anchor: Vec3| {
@@ -102,7 +104,7 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// Nothing of one that is not there, or has no length.
+    /// `None` for an edge that does not exist, or has no length.
     pub(super) fn of(shape: &Shape3, edge: u32) -> Option<Self> {
         let core = shape.core();
         core.topology().half_edges().get(edge as usize)?;
@@ -117,7 +119,7 @@ pub(super) fn arm_of(shape: &Shape3) -> f32 {
     (shape.center().length() + shape.outer_radius()).next_up()
 }
 
-/// By how much the bodies stand on each other to every side: the least width of three or four points, else how far the
+/// How wide the bodies stand on each other, to every side: the least width of three or four points, else how far the
 /// middle of the points is inside the face.
 fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {
     let on_face = |point: &ContactPoint3| match face {
@@ -135,7 +137,7 @@ fn width_on(job: &Job3<'_>, face: OnFace, manifold: &Manifold3) -> f64 {
     }
 }
 
-/// The least distance of two parallel lines with all points between them: one runs through two of them.
+/// The least distance between two parallel lines with all points between them: one of them runs through two points.
 fn least_width(points: &[DVec3], normal: DVec3) -> f64 {
     let mut least = f64::INFINITY;
     for (i, &one) in points.iter().enumerate() {
@@ -166,14 +168,14 @@ pub(super) fn inside(shape: &Shape3, face: usize, point: DVec3) -> f64 {
     in_polygon(topology.face_vertices(face).map(|vertex| vertices[vertex].as_dvec3()), normal, point)
 }
 
-/// How broadly the bodies stand on each other, if they do.
+/// The footing of the bodies on each other, if it is broad enough.
 pub(super) fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Option<Footing> {
     let (mut low, mut high) = (manifold.separation, manifold.separation);
     for point in &manifold.points {
         (low, high) = (low.min(point.separation), high.max(point.separation));
     }
     let girth = |shape: &Shape3| {
-        // A core of cuboids is made when it is asked for.
+        // A cuboid's core is built on demand.
         let inner = match shape {
             Shape3::Cuboid(cuboid) => cuboid.inner_radius(),
             _ => shape.core().inner_radius() + shape.radius(),
@@ -183,5 +185,5 @@ pub(super) fn footing_of(job: &Job3<'_>, manifold: &Manifold3, width: f64) -> Op
     Footing::new(width, [low, high], manifold.error, [girth(job.shape_a), girth(job.shape_b)])
 }
 
-/// The least sine of edges that cross.
+/// Least sine of the angle between edges that count as crossing.
 const LEAST_SINE: f64 = 0.01;

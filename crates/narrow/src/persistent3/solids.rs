@@ -11,22 +11,22 @@ use crate::precision::signed;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Basis3, Pose3};
 
-/// A manifold of two solids, and how they stood to each other when it was made.
+/// A manifold of two solids, and their poses when it was computed.
 ///
-/// A frame of bodies that rest reads every one of them, and waits for memory: 64 bytes more made heaps of boxes 11 %
-/// slower, and pyramids 7 % (AMD EPYC, Zen 4, 2026-11-23). So of a point only one end is kept: the other is its foot,
+/// A frame of bodies at rest reads every one of these, and waits for memory: 64 bytes more made heaps of boxes 11 %
+/// slower, and pyramids 7 % (AMD EPYC, Zen 4, 2026-11-23). So only one end of each point is kept: the other is its foot
 /// along the normal (`plumb`).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Solids {
-    /// Where the bodies were.
+    /// The bodies' poses then.
     poses: [Pose3; 2],
     points: ContactPoints<Held, 4>,
     parts: [u32; 2],
     normal: Vec3,
     separation: f32,
     error: f32,
-    /// Whether the ends on A are what is kept.
+    /// Whether the kept ends are those on A.
     is_by_a: bool,
     terms: Terms,
 }
@@ -54,11 +54,12 @@ impl Held {
 }
 
 impl Solids {
-    /// What can be kept of an answer to a job, of the batch that these manifolds are from.
+    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
     ///
-    /// Nothing where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
-    /// where they touch in several parts; and where points are neither on a face, nor where two edges cross, nor, of
-    /// single solids, across a gap from each other. Cost: some square roots, and linear in the vertices of a face.
+    /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
+    /// where they touch in several parts; and where points are neither on a face, nor where two edges cross, nor,
+    /// between single solids, across a gap from each other. Cost: some square roots, and linear in the vertices of a
+    /// face.
     pub(super) fn of(job: &Job3<'_>, answer: &Answer, manifolds: &[Manifold3]) -> Option<Self> {
         let (hint, index, overlapping) = single(answer)?;
         let manifold = manifolds.get(index)?;
@@ -107,12 +108,12 @@ impl Solids {
         }
     }
 
-    /// Up to which drift this one can be moved along, in metres.
+    /// The drift up to which this one can be moved along, in metres.
     pub(super) fn reach(&self) -> f32 {
         self.terms.reach()
     }
 
-    /// The manifold as it was made.
+    /// The manifold as it was computed.
     pub(super) fn manifold(&self) -> Manifold3 {
         let (offset, normal) = (between(self.poses.each_ref()), self.normal.as_dvec3());
         let point = |point: &Held| point.between(self.ends_then(point, offset, normal));
@@ -136,13 +137,14 @@ impl Solids {
         self.terms.margin
     }
 
-    /// Whether the numbers beside the manifold can be those of one: of what was read from a file.
+    /// Whether the numbers beside the manifold are possible ones: for data that was read from a file.
     pub(super) fn is_sound(&self) -> bool {
         self.terms.are_sound([self.separation, self.error])
     }
 
-    /// Appends the manifold as it is for the poses of A and B; says no where it has to be made anew. Shapes and margin
-    /// must be those of its job. Its error holds what the drift may cost. Cost: constant, least where no body turned.
+    /// Appends the manifold as it is for the poses of A and B; returns false where it must be recomputed. Shapes and
+    /// margin must be those of its job. Its error includes what the drift may cost. Cost: constant, least where no body
+    /// turned.
     pub(super) fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         if poses[0].same_rotation(&self.poses[0]) & poses[1].same_rotation(&self.poses[1]) {
             if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
@@ -152,7 +154,7 @@ impl Solids {
             return self.shift(between(poses), to);
         }
         let moved = self.turned(poses);
-        // What is not a number is not close.
+        // NaN is not close.
         let is_close = moved.drift <= f64::from(self.terms.reach());
         if is_close {
             to.push(Manifold3::BLANK);
@@ -164,9 +166,9 @@ impl Solids {
         false
     }
 
-    /// The same where neither body turned: all points rise alike, and stay where they are on one body. That is known
-    /// before anything is written: a quarter fewer instructions than by the general way, which moves each point by
-    /// itself.
+    /// The same where neither body turned: all points rise alike, and stay where they are on one body. So the error is
+    /// known before anything is written: a quarter fewer instructions than by the general path, which moves each point
+    /// by itself.
     ///
     /// Tried: a point in four lanes, with its separation beside its anchor as they lie in memory: a twelfth more
     /// instructions (2026-11-24).
@@ -197,13 +199,13 @@ impl Solids {
         true
     }
 
-    /// Where a point's ends were, with the way from A's position to B's then, and the normal.
+    /// Where a point's ends were, given the vector from A's position to B's then, and the normal.
     #[inline(always)]
     fn ends_then(&self, point: &Held, offset: DVec3, normal: DVec3) -> [DVec3; 2] {
         ends(point.anchor.as_dvec3(), self.is_by_a, offset, normal * f64::from(point.separation))
     }
 
-    /// How bodies moved, of which one turned.
+    /// The motion, where a body turned.
     #[inline(never)]
     fn turned(&self, poses: [&Pose3; 2]) -> Moved {
         let (offset, offset_then) = (between(poses), between(self.poses.each_ref()));
@@ -211,22 +213,22 @@ impl Solids {
         let of_a = poses[0].turn_since(&self.poses[0]);
         let of_b = poses[1].turn_since(&self.poses[1]);
         let spin = of_b.spin_from(&of_a);
-        // As seen from a body that does not turn: what either says of the drift is true.
+        // Seen from either body as if it did not turn: both give a true bound on the drift.
         let drift_from = |seen_from: &Basis3, arm: f32| {
             let step = (offset - seen_from.turn(offset_then)).length();
             step + spin * f64::from(arm) + lost(offset.abs().element_sum(), arm.into())
         };
         let [arm_a, arm_b] = self.terms.arms;
         let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
-        // The normal turns with the body that sees the other drift less: along it, what is told is true of both as
-        // wholes.
+        // The normal turns with the body that sees the lesser drift of the other: along it, the separation holds for
+        // both bodies as wholes.
         let (drift, arm, seen_from) =
             if from_a <= from_b { (from_a, arm_b, of_a) } else { (from_b, arm_a, of_b) };
         let (spun, normal) = (spin * f64::from(arm), seen_from.turn(normal_then));
         Moved { drift, spun, offset, normal, of_a, of_b, offset_then, normal_then }
     }
 
-    /// The manifold as it is now, of bodies of which one turned; says no where it has to be made anew.
+    /// The manifold as it is now, where a body turned; returns false where it must be recomputed.
     #[inline(never)]
     fn fill(&self, moved: &Moved, to: &mut Manifold3) -> bool {
         ([to.part_a, to.part_b], to.normal) = (self.parts, moved.normal.as_vec3());
@@ -238,7 +240,7 @@ impl Solids {
             let (held, rise) = moved.held(ends_then, is_from_b);
             let height = then + rise;
             (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
-            // The other is its foot on the face.
+            // The other end is its foot on the face.
             let now = Held { separation: height as f32, ..*point };
             now.between(ends(held, is_from_b, moved.offset, moved.normal * height))
         }));
@@ -251,10 +253,10 @@ impl Solids {
     }
 }
 
-/// How bodies moved since, of which one turned; in world axes.
+/// How bodies moved since the manifold was computed, where one turned; in world axes.
 struct Moved {
     drift: f64,
-    /// Their spin against each other times the arm of the one that is seen to move.
+    /// Their rotation against each other times the arm of the one that is taken to move.
     spun: f64,
     /// From A's position to B's, now.
     offset: DVec3,
@@ -267,10 +269,11 @@ struct Moved {
 }
 
 impl Moved {
-    /// Where the point is now that is held by the body whose face it is not, and by how much it rose over the other's.
+    /// The present position of a point, which stays on the body whose face it is not measured from, and by how much it
+    /// rose over the other's face.
     ///
-    /// What rose is the way from A's point to B's, along the normal: short vectors, whose rounding is nothing beside
-    /// the drift.
+    /// The rise is the change, along the normal, of the vector from A's point to B's: short vectors, whose rounding is
+    /// nothing beside the drift.
     #[inline(always)]
     fn held(&self, [on_a, on_b]: [DVec3; 2], is_from_b: bool) -> (DVec3, f64) {
         let (a, b) = (self.of_a.turn(on_a), self.of_b.turn(on_b));
@@ -280,7 +283,7 @@ impl Moved {
     }
 }
 
-/// Most that a normal may lean that leads across a gap between corners and edges, by drift over gap.
+/// Most that a normal across a gap between vertices and edges may lean: drift over gap.
 const LEAN: f32 = 1.0 / 16.0;
 
 /// From A's position to B's.

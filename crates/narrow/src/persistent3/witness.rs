@@ -1,4 +1,4 @@
-//! What shows that a body and ground still overlap.
+//! What proves that a body and ground still overlap.
 
 use super::flat::NearPoints;
 use super::grounded::Moved;
@@ -10,7 +10,7 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Shape3};
 use core::ops::Range;
 
-/// What a body and ground share, if they overlap for certain.
+/// A proof that a body and ground share a point.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) enum Witness {
@@ -23,18 +23,18 @@ pub(super) enum Witness {
     InBall { point: DVec3, radius: f64 },
 }
 
-/// Shares of points in one that is on no seam of ground but by chance.
+/// Weights of points in an average that is on a seam of the ground only by chance.
 const SHARES: [f64; 4] = [0.53, 0.27, 0.13, 0.07];
 
 impl Witness {
-    /// One that holds where these manifolds were made, if there is any.
+    /// One that holds for the poses of these manifolds, if there is any.
     pub(super) fn of(on: &OnGround, found: &[Manifold3], near: &NearPoints, arm: f32) -> Option<Self> {
         let deepest = found
             .iter()
             .reduce(|least, next| if next.separation < least.separation { next } else { least })?;
         let still = Moved::none(on.to_body);
         let holds = |witness: &Self| witness.holds(&still, on.body_basis, arm.into());
-        // A point of a triangle in the body shows nothing once its front no longer sees the body's centre.
+        // A point of a triangle in the body proves nothing once the body's centre is behind the triangle's front.
         let is_any_side = !on.ground.is_one_sided();
         if let Shape3::Sphere(sphere) = on.body
             && is_any_side
@@ -50,7 +50,7 @@ impl Witness {
             .or_else(|| Self::inside(on, deepest).filter(|inside| is_any_side && holds(inside)))
     }
 
-    /// From what is in the middle of some points to the body's centre.
+    /// The segment from an average of some points to the body's centre.
     fn crossing(on: &OnGround, of: &Manifold3, points: Range<usize>, near: &NearPoints) -> Option<Self> {
         let (mut from, mut foot, mut all) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for (point, share) in of.points.get(points)?.iter().zip(SHARES) {
@@ -69,7 +69,7 @@ impl Witness {
         Some(Self::InBall { point, radius })
     }
 
-    /// A corner of ground, or a point on an edge of it or between two there, in a cuboid.
+    /// A corner of ground, a point on an edge of it, or the middle of two such points, in a cuboid.
     fn inside(on: &OnGround, deepest: &Manifold3) -> Option<Self> {
         let Shape3::Cuboid(cuboid) = on.body else { return None };
         let point_of = |i: usize| {
@@ -97,7 +97,7 @@ impl Witness {
         best.map(|(_, point)| Self::InCuboid { point, half: cuboid.half_extents().as_dvec3() })
     }
 
-    /// Whether it shows that they overlap.
+    /// Whether it proves that they overlap.
     pub(super) fn holds(&self, moved: &Moved, basis: Basis3, arm: f64) -> bool {
         let offset = moved.offset;
         // Anchors are rounded to f32.
@@ -118,7 +118,7 @@ impl Witness {
         }
     }
 
-    /// Whether it can be one: of what was read from a file.
+    /// Whether it is a possible one: for data that was read from a file.
     pub(super) fn is_sound(&self) -> bool {
         match self {
             Self::Crossing { from, to, corners } => {
@@ -139,7 +139,7 @@ fn do_cross([from, to]: [DVec3; 2], [a, b, c]: [DVec3; 3], doubt: f64) -> bool {
     let cross = (b - a).cross(c - a);
     let area = cross.length();
     let (low, high) = (cross.dot(from - a) / area, cross.dot(to - a) / area);
-    // What is not a number does not.
+    // NaN does not.
     if !(low < -doubt && high > doubt) {
         return false;
     }

@@ -1,15 +1,14 @@
-//! A corner or an edge of ground that stands out against the face that a part turns to it: the short way seen from the
-//! other side.
+//! An edge or corner of ground against the face that a part turns to it: the fast path with the roles exchanged.
 //!
 //! ```text
-//! of the triangle, what reaches furthest against the normal of the part's face                      (Facet::furthest)
-//! as seen along that normal, it lies within the face, and further inside than it is deep: the face's normal is the axis,
-//!     unless in a gap a side of the face cuts off the upper end of an edge that is not quite level
-//! else the kernels are asked
+//! the feature of the triangle that reaches furthest against the normal of the part's face            (Facet::furthest)
+//! seen along that normal it lies within the face, further inside than it is deep: the face's normal is the axis,
+//!     unless, across a gap, a side of the face cuts off the upper end of an edge that is not quite level
+//! else the kernels are called
 //! ```
-//! In a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a
-//! side of the face is better, as above for the triangle. Most of what stands out of ground under a box lies under the
-//! middle of its face.
+//! Across a gap of the cores that is the closest point. In overlap no axis that leans by less than a right angle over a
+//! side of the face is better, as shown for the triangle's normal (see `contact`). Most features that stand out of
+//! ground under a box lie under the middle of its face.
 
 use super::facet::Furthest;
 use super::groups::{Base, Groups, Pin};
@@ -19,24 +18,24 @@ use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
-/// How much of an edge's rise may be cut off and go into the error, in slacks: what rotations in f32 leave of edges
-/// that were meant to be level. With none, cuboids that start on hills with their faces along the ground's took 17 %
-/// more instructions.
+/// How much of an edge's rise may be cut off and be charged to the error, in slacks: what rotations in f32 leave of
+/// edges that were meant to be level. With zero, cuboids that start on hills with their faces along the ground's took
+/// 17 % more instructions.
 const MOST_CUT_OFF: f64 = 1.0 / 64.0;
 
-/// What a part's face says of a triangle.
+/// The result of testing a part's face against a triangle.
 pub(super) enum Against {
-    /// The triangle is further from it than is wanted.
+    /// They are further apart than the reach.
     Apart,
-    /// Its normal is not the answer, or may not be.
+    /// The face's normal is not the answer, or may not be.
     Unknown,
-    /// It is, and ground around the triangle's feature does not let it through.
+    /// It is, and the ground around the triangle's feature rejects it.
     Refused(Refusal),
-    /// It is; how deep, and whether the part certainly shares a point with the triangle.
+    /// It is, and points were added: the separation, and whether the part certainly shares a point with the triangle.
     Added(f64, bool),
 }
 
-/// A stretch of a triangle's edge over a face, or its corner; and how far its middle is inside the face, in metres.
+/// The interval of a triangle's edge over a face, or a corner; and how far its middle is inside the face, in metres.
 struct Stretch {
     ends: Span,
     inside: f64,
@@ -69,8 +68,8 @@ impl Prism<'_> {
         let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
             return Against::Unknown;
         };
-        // An edge that counts as level may rise a little. Where its upper end is cut off, in a gap another edge may
-        // pass under the face nearer to it, by no more than was cut off.
+        // An edge that counts as level may rise a little. Where its upper end is cut off, another edge of the face may
+        // be nearer across a gap, by no more than the rise that was cut off.
         let [(begin, _), (end, _)] = stretch.ends;
         let nearest = separation(begin).min(separation(end));
         let is_little = nearest - least <= MOST_CUT_OFF * standing.slack;
@@ -100,7 +99,7 @@ impl Prism<'_> {
         Against::Added(least, self.certainly_holds(middle, outwards.dot(middle - over), stretch.inside))
     }
 
-    /// Whether a point of ground, which is so far from the part's face, is certainly in the part. Faces of hulls are
+    /// Whether a point of ground at this separation from the part's face is certainly in the part. Faces of hulls are
     /// derived, and prove nothing.
     fn certainly_holds(&self, point: DVec3, separation: f64, inside: f64) -> bool {
         let standing = self.standing;
@@ -112,8 +111,8 @@ impl Prism<'_> {
             || standing.is_in_box(point, self.doubt)
     }
 
-    /// How much further than a face's plane the round of one of its edges reaches to what passes from under it there: a
-    /// line that counts as level may lean against the face. In metres; never more than all that it rises by.
+    /// How much further than the face's plane a rounded edge reaches where a line passes out from under it: a line that
+    /// counts as level may lean against the face. In metres; never more than its whole rise.
     fn under_round(&self, half_edge: usize, outwards: DVec3, along: DVec3) -> f64 {
         let standing = self.standing;
         let (start, stop) = standing.solid.topology.ends(half_edge);
@@ -139,7 +138,7 @@ impl Prism<'_> {
         }
     }
 
-    /// What of an edge or a corner lies over the part's face, as seen along the face's normal.
+    /// The part of an edge, or the corner, that lies over the part's face, seen along the face's normal.
     fn stretch(&self, face: usize, outwards: DVec3, (from, along): (DVec3, DVec3)) -> Option<Stretch> {
         let (standing, topology) = (self.standing, self.standing.solid.topology);
         let cuts = || {

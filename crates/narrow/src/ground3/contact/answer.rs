@@ -1,4 +1,4 @@
-//! What was found of a part, as manifolds in world axes.
+//! Output of what was found for a part: manifolds in world axes.
 
 use super::groups::Group;
 use super::{Asking, Known};
@@ -9,7 +9,7 @@ use crate::precision::{IN_SPACE, Precision, signed};
 use crate::room::Room;
 
 impl Asking<'_> {
-    /// Hands over what was found.
+    /// Outputs what was found; returns whether the part overlaps, if it is within the margin.
     #[inline]
     pub(super) fn answer(
         &self,
@@ -20,8 +20,8 @@ impl Asking<'_> {
     ) -> Option<bool> {
         let (overlapping, least) = (known.overlapping, known.groups.least());
         let how = (overlapping, is_overlap_known, least);
-        // What is told decides, as between solids: whatever a slack let in that is not touched may be told to be beyond
-        // the margin.
+        // The reported separation decides, as between solids: points that the slack let in and that do not touch may be
+        // reported beyond the margin.
         if !overlapping && (least == f64::INFINITY || told(least, how) > self.margin) {
             return None;
         }
@@ -69,7 +69,7 @@ impl Asking<'_> {
     }
 }
 
-/// A group's separation as it is told: the deepest of all has the sign of the decision.
+/// A group's separation as it is reported: the deepest of all has the sign of the overlap decision.
 fn told(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
     match overlapping {
         true if deepest <= least => signed(deepest, true),

@@ -1,13 +1,14 @@
-//! A cuboid and a triangle by their thirteen axes: whether the kernels have anything to say that ground lets through.
+//! The thirteen separating axes of a cuboid and a triangle: do the kernels have an axis that ground would accept?
 //!
 //! ```text
-//! in the cuboid's axes: three across its faces, the triangle's normal, nine across two edges
-//! one shows a gap beyond what is wanted: apart
-//! one shows a gap: the closest points are what counts                                                    (gap)
-//! else the cores overlap, and the axis with the least depth is the kernels' own:
-//!   ground refuses it, and all that are as good up to the slack: refused, and the kernels need not be asked
+//! in the cuboid's axes: three face normals, the triangle's normal, nine cross products of edges
+//! an axis shows a gap wider than the reach: apart
+//! an axis shows a gap: the closest points decide                                                                 (gap)
+//! else the cores overlap, and the axis of least depth is the one that the kernels would find:
+//!     if ground rejects it and all that are as good up to the slack, the kernels need not be called
 //! ```
-//! Most of what overlaps a triangle of a bump does so along its own normal, or along one that its neighbours refuse.
+//! Most cuboids that overlap a triangle of a bump have their least depth along its normal, or along an axis that its
+//! neighbours reject.
 //!
 //! Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with depths.
 
@@ -24,35 +25,36 @@ pub(super) struct Axes {
     pub(super) corners: [DVec3; 3],
     /// Its unit normal there.
     normal: DVec3,
-    /// How far the cores are apart along each, in metres: three of the cuboid, the normal, three across each edge. The
-    /// few directions that are asked for are made then.
+    /// The gap between the cores along each axis, in metres: three face normals of the cuboid, the triangle's normal,
+    /// then three cross products for each of its edges. Only gaps are stored; the few directions that are needed are
+    /// computed later.
     gaps: [f64; 13],
-    /// Whether it is against the axis as it is made that the cuboid is beside the triangle.
+    /// Whether the cuboid is on the negative side of the triangle along the axis as computed.
     is_turned: [bool; 13],
     /// The greatest of the gaps.
     pub(super) best: f64,
-    /// By how much an axis that is left out, across edges that are all but parallel, may be better, in metres.
+    /// By how much an axis that was left out (of nearly parallel edges) may be better, in metres.
     left_out: f64,
 }
 
-/// Sine of an angle between edges up to which what is across them is left out: a turn by as much makes them parallel,
-/// and then it is across faces, too.
+/// Sine of the angle between edges up to which their cross product is left out: turning by as much makes them parallel,
+/// and then the axis is square to a face, too.
 const PARALLEL: f64 = 1e-10;
 
-/// Sine of the angle between edges above which what is across them is right to a millionth of the slack.
+/// Sine of the angle between edges above which a gap along their cross product is right to a millionth of the slack.
 const CROSSED: f64 = 1e-3;
 
 impl Prism<'_> {
-    /// Fills in the axes, where the part is a cuboid and no two edges are so nearly parallel that they are not to be
-    /// trusted; whether it did. All of them, unless one says at once that they are further apart than so many metres.
-    /// Filled where they stay: they are large.
+    /// Fills in the axes, if the part is a cuboid and no two edges are so nearly parallel that their cross product
+    /// cannot be trusted; returns whether it did. Stops early once an axis shows a gap wider than `beyond` metres.
+    /// Filled in place: they are large.
     pub(super) fn fill(&self, axes: &mut Axes, beyond: f64) -> bool {
         let Shape3::Cuboid(cuboid) = self.standing.part.shape else { return false };
         let normal = self.standing.own(self.facet, DVec3::ZERO, axes);
         axes.fill(normal, (cuboid.half_extents().as_dvec3(), beyond), CROSSED)
     }
 
-    /// Whether ground refuses the axis along which overlapping cores are the least deep, and all that are as good.
+    /// Whether ground rejects the axis of least depth of overlapping cores, and all axes that are as good.
     pub(super) fn refuses(&self, axes: &Axes) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
@@ -61,15 +63,15 @@ impl Prism<'_> {
         rivals.all(|axis| !facet.lets_through(self.ground, standing.place.axes.turn(axis)))
     }
 
-    /// Whether an axis along which overlapping cores are the least deep is nearly the triangle's own normal.
+    /// Whether an axis of least depth of overlapping cores is nearly the triangle's normal.
     pub(super) fn is_own(&self, axes: &Axes) -> bool {
         let standing = self.standing;
         let mut best = axes.as_good_as(axes.best);
         best.any(|axis| self.facet.is_nearly_own(standing.place.axes.turn(axis)))
     }
 
-    /// How deep a cuboid is in a triangle to which the axis along which it is the least deep is level, and how far that
-    /// may be off, in metres.
+    /// The separation of a cuboid and a triangle that is level to the axis of least depth, and its error bound, in
+    /// metres.
     pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
         let (standing, facet) = (self.standing, self.facet);
         let mut best = axes.as_good_as(axes.best);
@@ -79,7 +81,8 @@ impl Prism<'_> {
 }
 
 impl Standing<'_> {
-    /// Puts a triangle's corners, after the part has moved, in the part's axes, and tells the triangle's normal there.
+    /// Transforms a triangle's corners to the axes of the part, which has moved, and returns the triangle's normal
+    /// there.
     fn own(&self, facet: &Facet, moved: DVec3, axes: &mut Axes) -> DVec3 {
         let place = &self.place;
         let origin = place.origin + moved;
@@ -88,21 +91,21 @@ impl Standing<'_> {
         place.axes.turn_back(facet.normal)
     }
 
-    /// Whether some axis shows that a cuboid, once it has moved, is no deeper in a triangle than the slack. Of others
-    /// nothing is known.
+    /// Whether some axis shows that a cuboid, once moved, is no deeper in a triangle than the slack. Always false for
+    /// other shapes, of which it shows nothing.
     pub(super) fn is_clear_of(&self, facet: &Facet, moved: DVec3) -> bool {
         let Shape3::Cuboid(cuboid) = self.part.shape else { return false };
         let least = self.radius - self.slack;
         let mut axes = Axes::new();
         let normal = self.own(facet, moved, &mut axes);
-        // An axis across edges that are nearly parallel shows what it shows.
+        // A gap along the cross product of nearly parallel edges is a gap all the same.
         axes.fill(normal, (cuboid.half_extents().as_dvec3(), least), PARALLEL);
         axes.best >= least
     }
 }
 
 impl Axes {
-    /// Not a constant: that would be copied, blanks and all.
+    /// Not a constant: that would be copied as a whole.
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self {
@@ -115,13 +118,12 @@ impl Axes {
         }
     }
 
-    /// Whether the cores overlap by more than so many metres for certain.
+    /// Whether the cores certainly overlap, by more than `doubt` metres.
     pub(super) fn do_overlap(&self, doubt: f64) -> bool {
         self.best < -(doubt + self.left_out)
     }
 
-    /// The axes along which the cores are no less apart: unit directions from the triangle to the cuboid, in the
-    /// cuboid's axes.
+    /// The axes along which the gap is no less: unit directions from the triangle to the cuboid, in the cuboid's axes.
     fn as_good_as(&self, gap: f64) -> impl Iterator<Item = DVec3> + '_ {
         (0..self.gaps.len()).filter(move |&number| self.gaps[number] >= gap).map(|number| {
             let axis = self.axis(number);
@@ -129,7 +131,7 @@ impl Axes {
         })
     }
 
-    /// An axis by its number, of whichever direction.
+    /// An axis by its number, of either sign.
     fn axis(&self, number: usize) -> DVec3 {
         let (edge, own) = match number {
             0..3 => return DVec3::AXES[number],
@@ -145,8 +147,8 @@ impl Axes {
         across * (1.0 / across.length_squared().sqrt())
     }
 
-    /// The thirteen axes, less those across edges that are parallel, and those after the first that shows a gap beyond
-    /// what is wanted; whether the sine between no other edges is below `crossed`.
+    /// Computes the thirteen axes, except cross products of parallel edges, and stops at the first that shows a gap
+    /// wider than `beyond`. Returns false where the sine between two other edges is below `crossed`.
     fn fill(&mut self, normal: DVec3, (half, beyond): (DVec3, f64), crossed: f64) -> bool {
         self.normal = normal;
         let corners = self.corners;
@@ -163,7 +165,7 @@ impl Axes {
             }
             let along = corners[(edge + 1) % 3] - corners[edge];
             let least = [PARALLEL, crossed].map(|sine| sine * sine * along.length_squared());
-            // An axis across one of the cuboid's own, and all that it is multiplied by, without what is zero.
+            // An axis square to one of the cuboid's, as a vector in the plane of the other two: zeros are left out.
             let (one, other, number) = (corners[edge], corners[third], 4 + 3 * edge);
             let x = (DVec2::new(-along.z, along.y), [one.yz(), other.yz()], half.yz());
             let y = (DVec2::new(along.z, -along.x), [one.xz(), other.xz()], half.xz());
@@ -178,8 +180,8 @@ impl Axes {
         true
     }
 
-    /// Takes an axis across two edges, with two corners and the half extents, in the plane that it lies in; whether its
-    /// length is to be trusted.
+    /// Tests the cross product of two edges, with two corners and the half extents in its plane; returns whether its
+    /// length can be trusted.
     #[inline(always)]
     fn offer_across(
         &mut self,
@@ -190,7 +192,7 @@ impl Axes {
         let square = axis.length_squared();
         if square <= parallel {
             if square > 0.0 {
-                // A turn about the cuboid's centre moves no corner further.
+                // Turning about the cuboid's centre moves no corner further.
                 let [a, b, c] = self.corners.map(DVec3::abs);
                 self.left_out = 2.0 * PARALLEL * a.max(b).max(c).length();
             }
@@ -206,7 +208,7 @@ impl Axes {
         true
     }
 
-    /// Of both directions of an axis takes the one in which the triangle has less to pass.
+    /// Takes the sign of the axis with the greater gap.
     #[inline(always)]
     fn offer(&mut self, number: usize, [low, high]: [f64; 2], half: f64) {
         let is_turned = low > -high;
@@ -220,7 +222,7 @@ impl Axes {
 mod tests {
     use super::*;
 
-    /// A triangle that lies so deep in the top of a cuboid, one of its edges turned so far from the cuboid's own.
+    /// A triangle at this depth in the top of a cuboid, with one edge turned this far from the cuboid's own.
     fn is_certain(depth: f64, turn: f64) -> bool {
         let (half, height) = (DVec3::new(1.0, 0.3, 0.3), 0.3 - depth);
         let corners = [[-1.0, height, -turn], [1.0, height, turn], [0.0, height, 2.0]].map(DVec3::from);

@@ -1,4 +1,4 @@
-//! A ball and a triangle: the point of the triangle nearest to the centre, and the feature that it lies on.
+//! A ball and a triangle: the triangle's point nearest to the centre, and the feature that it lies on.
 
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Groups, Pin};
@@ -10,24 +10,24 @@ use crate::triangle::nearest_on_edges;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
-/// What is nearest to a ball's centre on a triangle.
+/// The point of a triangle that is nearest to a ball's centre.
 pub(super) struct Nearest {
     at: DVec3,
     pub(super) feature: Furthest,
-    /// Of the surfaces, in metres.
+    /// Of the two surfaces, in metres.
     pub(super) separation: f64,
-    /// Unit direction from there to the centre.
+    /// Unit direction from that point to the centre.
     pub(super) towards: DVec3,
 }
 
 impl Nearest {
-    /// What of a triangle is nearest to a part's centre.
+    /// The point of a triangle that is nearest to a part's centre.
     pub(super) fn of(standing: &Standing, facet: &Facet, doubt: f64) -> Self {
         let center = standing.center;
         Self::at((center, standing.radius), facet, nearest_to(facet, center), doubt)
     }
 
-    /// The same, where it is known what of the triangle is nearest to the centre.
+    /// The same, where the feature and the point nearest to the centre are known.
     #[inline]
     pub(super) fn at(
         (center, radius): (DVec3, f64),
@@ -45,7 +45,7 @@ impl Nearest {
         Self { at, feature, separation: distance - radius, towards: between / distance }
     }
 
-    /// What is kept of it where ground does not let the direction through, which is not the triangle's own.
+    /// What is kept of it where ground rejects the direction, which is not the triangle's normal.
     #[inline]
     pub(super) fn unsaid(
         &self,
@@ -66,7 +66,7 @@ impl Nearest {
         }
     }
 
-    /// Adds the contact point, where ground lets the direction through; whether it did.
+    /// Adds the contact point, if ground accepts the direction; returns whether it did.
     pub(super) fn add_point(
         &self,
         (center, radius): (DVec3, f64),
@@ -108,7 +108,7 @@ impl Nearest {
 }
 
 impl Seen<'_> {
-    /// Looks at one triangle, for a ball.
+    /// Processes one triangle, for a ball.
     pub(super) fn look_at_from_ball(&self, number: u32, known: &mut Known) {
         let ground = self.asking.on.ground;
         let Some(facet) = &Facet::seen(ground, number, self.standing.center) else { return };
@@ -136,8 +136,8 @@ impl Seen<'_> {
     }
 }
 
-/// What of a triangle is nearest to a point, and where: over the triangle's face that is the point as it is given, and
-/// its foot is the caller's to take.
+/// The feature of a triangle nearest to a point, and the nearest point on it. Over the face the point itself is
+/// returned; the caller computes its foot.
 pub(super) fn nearest_to(facet: &Facet, point: DVec3) -> (Furthest, DVec3) {
     match nearest_on_edges(|edge| facet.edge(edge), |along| facet.inwards(along), point) {
         None => (Furthest::Face, point),

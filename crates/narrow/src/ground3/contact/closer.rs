@@ -1,4 +1,4 @@
-//! A triangle that is near enough: by its own normal, or, where that may not be the answer, by the axes that are.
+//! A triangle within reach: by its normal or, where that may not be the answer, by other axes.
 
 use super::against::Against;
 use super::axes::Axes;
@@ -11,12 +11,12 @@ use super::{Known, Seen};
 use asunder_geometry::{NearTriangle, Prominent};
 
 impl Seen<'_> {
-    /// Looks at a triangle that is near enough.
+    /// Processes a triangle within reach.
     pub(super) fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
         let prominent = near.prominent;
         match self.needs(prism, prominent) {
             Needs::Normal => return self.look_along(prism, prominent, known),
-            // There is no gap that kernels could tell of.
+            // They share a point: there is no gap for the kernels.
             Needs::KernelsBeside if prism.does_cross() => return self.look_along(prism, prominent, known),
             Needs::KernelsBeside => {
                 self.look_along(&Prism { reach: touching(), ..*prism }, prominent, known);
@@ -28,7 +28,7 @@ impl Seen<'_> {
         known.groups.leave_out(f64::NEG_INFINITY);
     }
 
-    /// Looks at a triangle by its own normal.
+    /// Processes a triangle along its normal.
     fn look_along(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let (number, doubt) = (prism.facet.number, prism.doubt);
         let separation = prism.extent.low - self.standing.radius;
@@ -43,7 +43,7 @@ impl Seen<'_> {
         self.leave_unclear(number, (has_points, separation), known);
     }
 
-    /// Looks at a triangle whose own normal may not be the answer.
+    /// Processes a triangle whose normal may not be the answer.
     fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let Prism { standing, facet, extent, doubt, .. } = *prism;
         let beyond = self.asking.reach + 2.0 * doubt;
@@ -68,7 +68,7 @@ impl Seen<'_> {
         self.look_by_axes(prism, axes, known);
     }
 
-    /// Looks at a triangle by axes that may not be its own normal.
+    /// Processes a triangle along axes that may not be its normal.
     #[inline(never)]
     fn look_by_axes(&self, prism: &Prism, axes: Option<&Axes>, known: &mut Known) {
         let Prism { ground, standing, facet, extent, doubt, .. } = *prism;

@@ -1,7 +1,8 @@
-//! A triangle of ground as a convex part of a body sees it, and what lies beside its edges and corners.
+//! A triangle of ground, oriented towards a convex part of a body, and the ground beside its edges and corners.
 //!
-//! Which normals an edge or a corner may give is its Voronoi region: the directions in which it is the nearest of all
-//! ground around it. Directions of ground are taken without a side, so that the same holds from in front and behind.
+//! The normals that an edge or a corner may give are its Voronoi region: the directions in which it is the nearest of
+//! all ground around it. Directions in the ground (along edges and across faces) have no side, so the same test holds
+//! from in front and from behind.
 
 use super::ball::nearest_to;
 use super::standing::{doubt_of, span_of};
@@ -9,35 +10,36 @@ use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::SAME_NORMAL;
 
-/// Triangles around a corner that are looked at, each way. More than that meet at the poles of very fine spheres alone:
-/// such a corner gives no direction but its triangles' own.
+/// Most triangles around a corner that are visited, each way. Only at the poles of very fine spheres do more meet: such
+/// a corner gives no direction but its triangles' normals.
 const MOST_AROUND: usize = 256;
 
-/// Cosine of 0.1 rad: within that, a triangle's own normal may stand in for a direction that ground refuses.
+/// Cosine of 0.1 rad: within that angle a triangle's normal may stand in for a direction that was rejected.
 const NEARLY: f64 = 0.995;
 
-/// A triangle in the ground's axes, its normal on the side of the part that looks at it.
+/// A triangle in the ground's axes, with its normal on the side of the part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Facet {
     pub(super) number: u32,
     pub(super) corners: [DVec3; 3],
     /// Unit normal towards the part.
     pub(super) normal: DVec3,
-    /// The corner that heights are measured from: between the two shorter sides, whose product loses least.
+    /// The corner that heights are measured from: the one between the two shorter sides, whose cross product loses
+    /// least.
     origin: DVec3,
     /// Whether the part is in front.
     pub(super) is_front: bool,
     /// Sine of the angle by which the normal may be off.
     pub(super) tilt: f64,
-    /// The triangle that the plane was made of.
+    /// The triangle that the plane was computed from.
     plane_of: u32,
 }
 
-/// What of a triangle touches, as told by a direction: what of it reaches furthest there.
+/// The feature of a triangle that reaches furthest in a direction (its support feature): what touches along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Furthest {
     Corner(usize),
-    /// By its half-edge.
+    /// By the half-edge's index.
     Edge(usize),
     Face,
 }
@@ -45,19 +47,19 @@ pub(super) enum Furthest {
 /// How a walk around a corner ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Around {
-    /// Where it was told to.
+    /// The visitor stopped it.
     Stopped,
-    /// Where it began.
+    /// Back at the start: all around.
     Whole,
-    /// Where ground ends, both ways.
+    /// At the rim of the ground, both ways.
     Rim,
-    /// Nowhere in sight.
+    /// After the most triangles that are visited.
     Many,
 }
 
 impl Facet {
-    /// The triangle with a number as a part whose centre this is sees it. Nothing for one-sided ground whose front is
-    /// not seen, and where the triangle has no normal.
+    /// The triangle of this number, oriented towards a part with this centre. `None` for one-sided ground that faces
+    /// away from it, and where the triangle has no normal.
     pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
         let mut facet = Self::front_of(number, ground.corners(number))?;
         if !facet.has_in_front(ground, center) {
@@ -69,7 +71,7 @@ impl Facet {
         Some(facet)
     }
 
-    /// A triangle as it is seen from its front. Nothing where it has no normal.
+    /// A triangle seen from its front. `None` where it has no normal.
     #[inline(always)]
     pub(super) fn front_of(number: u32, corners: [Vec3; 3]) -> Option<Self> {
         let corners = widened(corners);
@@ -85,7 +87,7 @@ impl Facet {
         let (one, other) = ((longest + 1) % 3, (longest + 2) % 3);
         let cross = sides[one].cross(sides[other]);
         let area = cross.length();
-        // Two roundings a side and a product, and as many again for the unit length.
+        // Two roundings for each side and product, and as many again for normalising.
         let tilt = 8.0 * f64::EPSILON * (squares[one] + squares[other]) / area;
         if tilt.is_nan() || tilt >= SAME_NORMAL {
             return None;
@@ -100,8 +102,8 @@ impl Facet {
         (self.normal, self.is_front) = (-self.normal, !self.is_front);
     }
 
-    /// Becomes another triangle of the same flat patch, if that lies in this one's plane up to so many metres and has a
-    /// point on the same side; whether it did.
+    /// Becomes another triangle of the same flat patch and keeps the plane, if that triangle lies in the plane up to
+    /// `slack` metres and has the centre on the same side; returns whether it did.
     pub(super) fn move_on(&mut self, ground: Ground, number: u32, slack: f64, center: DVec3) -> bool {
         let corners = widened(ground.corners(number));
         if corners.iter().any(|&corner| self.height(corner).abs() > slack) {
@@ -116,13 +118,13 @@ impl Facet {
         is_same
     }
 
-    /// Whether a point is on the side of the normal: of one-sided ground, of the plane. Of other ground, of the surface
-    /// around the nearest point of the triangle, so that a plank over a ridge is above the slope behind it, whose
-    /// plane it is under.
+    /// Whether a point is on the side of the normal. For one-sided ground: above the plane. For other ground: on that
+    /// side of the surface around the triangle's nearest point; so a plank over a ridge is above the slope behind the
+    /// ridge, though it is below that slope's plane.
     ///
     /// Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal" (2005). With sines
-    /// for angles, which need no arc tangent, one point in seventy beside edges and corners of thin hulls was taken
-    /// from the wrong side.
+    /// instead of angles, which need no arc tangent, one point in seventy beside edges and corners of thin hulls was
+    /// taken to be on the wrong side.
     pub(super) fn has_in_front(&self, ground: Ground, point: DVec3) -> bool {
         let is_above = self.height(point) >= 0.0;
         if ground.is_one_sided() {
@@ -130,7 +132,7 @@ impl Facet {
         }
         let (feature, at) = nearest_to(self, point);
         if let Furthest::Edge(edge) = feature {
-            // Where ground bends away behind an edge, what is beside it on this side of the plane is so of both planes.
+            // Where ground bends away at an edge, a point beside the edge is on the same side of both planes.
             let (prominent, is_seen) = (ground.prominent(self.number), self.is_front == is_above);
             if prominent.edge(edge, is_seen) && !prominent.edge(edge, !is_seen) {
                 return is_above;
@@ -139,10 +141,11 @@ impl Facet {
         self.is_before(ground, point, (feature, at))
     }
 
-    /// The same of two-sided ground, where it is known what of the triangle is nearest to the point.
+    /// The same for two-sided ground, where the triangle's feature nearest to the point is known.
     pub(super) fn is_before(&self, ground: Ground, point: DVec3, (feature, at): (Furthest, DVec3)) -> bool {
         let (is_above, away) = (self.height(point) >= 0.0, point - at);
-        // A sum of normals leads to where each of them does: most often all agree, and none need be of unit length.
+        // Where all normals around agree on the side, as most often, their weighted sum does too, and none need be
+        // normalised.
         let agrees = |other: u32, _: usize| {
             let lean = front_of(ground.corners(other)).dot(away);
             if self.is_front == is_above { lean >= 0.0 } else { lean <= 0.0 }
@@ -164,7 +167,7 @@ impl Facet {
         if is_clear { lean > 0.0 } else { is_above }
     }
 
-    /// Whether its plane was made of itself, and not of another triangle of the same patch.
+    /// Whether its plane was computed from itself, and not from another triangle of the same patch.
     pub(super) fn has_own_plane(&self) -> bool {
         self.plane_of == self.number
     }
@@ -174,9 +177,9 @@ impl Facet {
         if self.is_front { self.normal } else { -self.normal }
     }
 
-    /// Walks over the other triangles around a corner, first one way and, where ground ends there, the other; as long
-    /// as something holds of each: by its number, the place of the corner in it, and the place of the next corner on
-    /// the way.
+    /// Visits the other triangles around a corner, first one way and, where the ground ends there, the other, as long
+    /// as `holds` is true. It gets each triangle's number, the index of the corner in it, and that of the next corner
+    /// on the way.
     fn walk_around(
         &self,
         ground: Ground,
@@ -194,7 +197,7 @@ impl Facet {
                 if other == self.number {
                     return Around::Whole;
                 }
-                // The corner is the end of the twin, or its start.
+                // The corner is at the end of the twin half-edge, or at its start.
                 let there = if way == 0 { (twin + 1) % 3 } else { twin };
                 let next = if way == 0 { (there + 1) % 3 } else { (there + 2) % 3 };
                 if !holds(other, there, next) {
@@ -209,8 +212,8 @@ impl Facet {
         Around::Rim
     }
 
-    /// Whether something holds of all other triangles around a corner, each by its number and the place of the corner
-    /// in it; of very many, of those that are looked at.
+    /// Whether `holds` is true for all other triangles around a corner, each given by its number and the index of the
+    /// corner in it. If there are very many, only those that are visited count.
     pub(super) fn do_all_around(
         &self,
         ground: Ground,
@@ -220,7 +223,7 @@ impl Facet {
         self.walk_around(ground, corner, |other, there, _| holds(other, there)) != Around::Stopped
     }
 
-    /// The sum of the fronts' normals around a corner, each by its angle there.
+    /// The sum of the front normals around a corner, each weighted by its angle there.
     fn normals_around(&self, ground: Ground, corner: usize) -> DVec3 {
         let mut sum = at_corner(ground, self.number, corner);
         self.do_all_around(ground, corner, |other, there| {
@@ -230,8 +233,8 @@ impl Facet {
         sum
     }
 
-    /// Whether the rim of ground may give a direction. That of two-sided ground gives any; that of one-sided ground
-    /// those within 135 degrees of the front's normal.
+    /// Whether the rim of the ground may give a direction: any for two-sided ground, for one-sided ground those within
+    /// 135 degrees of the front's normal.
     fn may_rim_give(&self, ground: Ground, towards: DVec3) -> bool {
         !ground.is_one_sided() || towards.dot(self.normal) >= -core::f64::consts::FRAC_1_SQRT_2
     }
@@ -248,14 +251,14 @@ impl Facet {
         self.normal.dot(point - self.origin)
     }
 
-    /// The point below a height of zero: where heights are measured from.
+    /// The corner that heights are measured from.
     #[inline]
     pub(super) fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// What a height over it, or a distance from its edges, may be off by for a part within a radius of a centre, into
-    /// which such lengths went; in metres. As much as the furthest corner is rounded, however near the rest.
+    /// Error bound, in metres, of a height over it or a distance from its edges, for a part within a radius of a centre
+    /// into which such lengths went. It grows with the triangle's furthest corner, however near the rest.
     #[inline]
     pub(super) fn doubt(&self, (center, radius): (DVec3, f64), lengths: f64) -> f64 {
         let lever = (center - self.origin).abs().element_sum() + radius;
@@ -269,13 +272,14 @@ impl Facet {
         (from, self.corners[(edge + 1) % 3] - from)
     }
 
-    /// From a half-edge into the triangle: square to both, as long as the edge.
+    /// Perpendicular to a half-edge, in the plane, towards the triangle; as long as the edge.
     #[inline]
     pub(super) fn inwards(&self, along: DVec3) -> DVec3 {
         self.front().cross(along)
     }
 
-    /// The feature that reaches furthest in a unit direction; corners within the tolerance of it count as far.
+    /// The feature that reaches furthest in a unit direction; sides that are level within the tolerance count as a
+    /// whole.
     pub(super) fn furthest(&self, towards: DVec3) -> Furthest {
         let is_level = |edge: usize| self.is_level(edge, towards);
         let reach = |corner: usize| towards.dot(self.corners[corner] - self.origin);
@@ -287,9 +291,9 @@ impl Facet {
         } else {
             2
         };
-        // Edge `top` leaves the corner, the one before leads to it. Tried: both sides of a needle's tip, which are
-        // level in many directions, taken for an edge where the direction is not its face's own. A box that slides over
-        // needles of a floor, whose normals are rounding, was then told of their edges.
+        // Edge `top` starts at the corner, the one before ends there. Tried: taking two sides of a needle's tip, which
+        // are level in many directions, for an edge where the direction is not the face's normal. A box that slid over
+        // needles of a floor, whose normals are rounding noise, then got contacts at their edges.
         match (is_level(top), is_level((top + 2) % 3)) {
             (true, true) => Furthest::Face,
             (true, false) => Furthest::Edge(top),
@@ -298,13 +302,14 @@ impl Facet {
         }
     }
 
-    /// Whether a unit direction from the ground to the body is not the triangle's own, and ground around what reaches
-    /// furthest there lets it through.
+    /// Whether a unit direction from the ground to the body is not the triangle's normal, and the ground around the
+    /// feature that reaches furthest in it accepts it.
     pub(super) fn lets_through(&self, ground: Ground, towards: DVec3) -> bool {
         !is_same(self.normal, towards)
             && match self.furthest(towards) {
-                // A triangle of any kind is level to what leads all but its own way, or against it. Sides within ground
-                // are left out: of needles in a floor, whose normals are rounding, they would give what is no bend.
+                // Any triangle is level to directions nearly along or against its normal, which are not meant here.
+                // Inner sides are left out: for needles in a floor, whose normals are rounding noise, they would give
+                // directions where there is no bend.
                 Furthest::Face => {
                     let is_rim = |edge: usize| ground.neighbor(self.number, edge).is_none();
                     self.normal.dot(towards).abs() < NEARLY && self.may_give_across(ground, towards, is_rim)
@@ -313,14 +318,13 @@ impl Facet {
             }
     }
 
-    /// Whether all of a triangle counts as level in a unit direction that is not its own normal: a needle's sides do,
-    /// as seen across it, and no feature of it has that direction to give.
+    /// Whether all of a triangle counts as level in a unit direction that is not its normal: so do the sides of a
+    /// needle, seen across it, and then no feature of it can give that direction.
     pub(super) fn is_level_to(&self, towards: DVec3) -> bool {
         self.furthest(towards) == Furthest::Face && !is_same(self.normal, towards)
     }
 
-    /// Whether the triangle's own normal may stand for a unit direction that ground refuses: it leads as good as the
-    /// same way.
+    /// Whether the triangle's normal may stand in for a unit direction that was rejected: they are nearly the same.
     pub(super) fn is_nearly_own(&self, towards: DVec3) -> bool {
         self.normal.dot(towards) >= NEARLY
     }
@@ -332,8 +336,8 @@ impl Facet {
         rise * rise <= SAME_NORMAL * SAME_NORMAL * along.length_squared()
     }
 
-    /// Whether a side, of those that are asked, gives a unit direction to which all of a needle is level: the one that
-    /// looks there.
+    /// Whether one of the selected sides gives a unit direction in which all of a needle is level: the side that faces
+    /// it.
     pub(super) fn may_give_across(
         &self,
         ground: Ground,
@@ -346,7 +350,8 @@ impl Facet {
         (0..3).any(|edge| is_asked(edge) && may_give(edge))
     }
 
-    /// Whether ground around a feature lets it give this unit direction, from the ground to the body.
+    /// Whether the ground around a feature lets it give this unit direction, from the ground to the body: whether the
+    /// direction is in the feature's Voronoi region.
     pub(super) fn may_give(&self, ground: Ground, furthest: Furthest, towards: DVec3) -> bool {
         match furthest {
             Furthest::Face => true,
@@ -363,7 +368,7 @@ impl Facet {
         }
     }
 
-    /// The same of a corner: no edge that leaves it leads towards the direction.
+    /// The same for a corner: no edge that leaves it leads towards the direction.
     fn may_corner_give(&self, ground: Ground, corner: usize, towards: DVec3) -> bool {
         let is_off = |triangle: u32, from: usize, to: usize| {
             let corners = ground.corners(triangle);
@@ -380,10 +385,10 @@ impl Facet {
         }
     }
 
-    /// Whether a point that is on this side of the triangle is on the other side of one that shares a corner with it.
+    /// Whether a point on this side of the triangle is on the other side of a triangle that shares this corner.
     ///
-    /// Then edges that bend towards this side may end the ground for it: a body beside a cliff and lower than its top
-    /// is behind the top, and still in front of the wall.
+    /// If so, edges that bend towards this side may be where the ground ends for it: a body beside a cliff and lower
+    /// than its top is behind the top, and still in front of the wall.
     pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
         let is_same = |number: u32, _| {
             let corners = ground.corners(number);
@@ -398,7 +403,7 @@ impl Facet {
         square_to(self.corners[(edge + 2) % 3] - from, along)
     }
 
-    /// Whether ground goes on in the same plane behind a half-edge.
+    /// Whether ground continues in the same plane behind a half-edge.
     pub(super) fn goes_on(&self, ground: Ground, edge: usize) -> bool {
         let Some((other, _)) = ground.neighbor(self.number, edge) else { return false };
         if ground.patch(other) == ground.patch(self.number) {
@@ -412,31 +417,31 @@ impl Facet {
     }
 }
 
-/// Corners in f64. Not by `map`: a kernel's arrays stay in registers only without its calls.
+/// Corners in f64. Not with `map`: only without its calls do a kernel's arrays stay in registers.
 #[inline(always)]
 pub(crate) fn widened([a, b, c]: [Vec3; 3]) -> [DVec3; 3] {
     [a.as_dvec3(), b.as_dvec3(), c.as_dvec3()]
 }
 
-/// The number of an edge: of its two half-edges, the lower.
+/// The number of an edge: the lower one of its two half-edges.
 pub(super) fn edge_number(ground: Ground, triangle: u32, edge: usize) -> u32 {
     let number = |triangle: u32, edge: usize| triangle.wrapping_mul(3).wrapping_add(edge as u32);
     let own = number(triangle, edge);
     ground.neighbor(triangle, edge).map_or(own, |(other, twin)| own.min(number(other, twin)))
 }
 
-/// The unit normal of a triangle's front; zero where it has none.
+/// The unit front normal of a triangle; zero where it has none.
 fn unit_normal(ground: Ground, triangle: u32) -> DVec3 {
     front_of(ground.corners(triangle)).normalize_or_zero()
 }
 
-/// The normal of a triangle's front, as long as twice its area.
+/// The front normal of a triangle, as long as twice its area.
 pub(crate) fn front_of(corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = widened(corners);
     (b - a).cross(c - a)
 }
 
-/// The normal of a triangle's front, as long as its angle at a corner; zero where it has none.
+/// The front normal of a triangle, as long as its angle at a corner; zero where it has none.
 fn at_corner(ground: Ground, triangle: u32, corner: usize) -> DVec3 {
     let corners = widened(ground.corners(triangle));
     let [at, next, before] = [corners[corner % 3], corners[(corner + 1) % 3], corners[(corner + 2) % 3]];
@@ -445,7 +450,7 @@ fn at_corner(ground: Ground, triangle: u32, corner: usize) -> DVec3 {
     if area > 0.0 { cross * (libm::atan2(area, (next - at).dot(before - at)) / area) } else { DVec3::ZERO }
 }
 
-/// Whether a direction of any length is along a unit normal, up to the tolerance.
+/// Whether a direction of any length is the same as a unit normal, up to the tolerance.
 #[inline]
 pub(super) fn is_same(normal: DVec3, other: DVec3) -> bool {
     normal.dot(other) > 0.0
@@ -463,7 +468,7 @@ fn square_to(vector: DVec3, along: DVec3) -> DVec3 {
     vector - along * (vector.dot(along) / along.length_squared())
 }
 
-/// Whether a unit direction does not lean towards ground that leaves in a direction of any length.
+/// Whether a unit direction does not lean towards ground that extends in the direction `leaving`, of any length.
 fn leans_off(leaving: DVec3, towards: DVec3) -> bool {
     let lean = towards.dot(leaving);
     lean <= 0.0 || lean * lean <= SAME_NORMAL * SAME_NORMAL * leaving.length_squared()

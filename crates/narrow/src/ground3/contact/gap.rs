@@ -1,17 +1,17 @@
-//! A cuboid and a triangle that a gap parts: their nearest points in closed form, where ground lets nothing be said
-//! along them.
+//! A cuboid and a triangle across a gap: their closest points in closed form, for triangles along which ground rejects
+//! the direction.
 //!
 //! ```text
-//! in the cuboid's axes, of each edge of the triangle: the point nearest to the cuboid                     (nearest_on)
-//! the cuboid's corner that is lowest over the triangle's plane, if its foot is in the triangle
-//! the nearest of these four; the axis from one point to the other, with all corners projected, shows no less than their
-//!     distance up to rounding: else the kernels are asked
-//! ground refuses that axis: no contact, and where they are nearest is all there is to say; else the kernels make points
+//! in the cuboid's axes, for each edge of the triangle: the point nearest to the cuboid                    (nearest_on)
+//! the cuboid's vertex that is lowest over the triangle's plane, if its foot is in the triangle
+//! the nearest of these four is checked: all vertices projected on the axis between its two points must show no less
+//!     than their distance up to rounding; else the kernels are called
+//! ground rejects that axis: no contact, and the closest points are all there is to keep; else the kernels make points
 //! ```
-//! A triangle is nearest to a cuboid on its rim, or under what the cuboid has lowest. If that is an edge or a face,
-//! either the foot of the corner that is chosen here is in the triangle, or what is lowest reaches across the rim as
-//! seen from above, which is then as near. On hills of triangles 24 of 39 calls of the kernels end here, for a cuboid
-//! that rolls.
+//! A triangle is nearest to a cuboid on its rim, or under the cuboid's lowest feature. If that feature is an edge or a
+//! face, either the foot of the vertex that is chosen here is in the triangle, or the feature reaches across the rim as
+//! seen from above, and the rim is as near. On hills of triangles 24 of 39 kernel calls end here, for a cuboid that
+//! rolls.
 
 use super::axes::Axes;
 use super::prism::Prism;
@@ -22,8 +22,8 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
 
 impl Prism<'_> {
-    /// Where a cuboid is nearest to the triangle across a gap, if ground refuses to be touched there and it is known
-    /// for certain that they share no point. Nothing where the kernels must be asked.
+    /// The closest points of a cuboid and the triangle across a gap, if ground rejects their direction and the two
+    /// certainly share no point. `None` where the kernels must be called.
     pub(super) fn refused_gap(&self, axes: &Axes) -> Option<Unsaid> {
         let (standing, facet) = (self.standing, self.facet);
         let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
@@ -58,8 +58,8 @@ impl Prism<'_> {
     }
 }
 
-/// The nearest points of a cuboid with these half extents and of a triangle beside it, whose unit normal leads to the
-/// cuboid, all in the cuboid's axes. Nothing where the triangle comes to the cuboid.
+/// The closest points of a cuboid with these half extents and of a triangle beside it, whose unit normal points towards
+/// the cuboid, all in the cuboid's axes. `None` where the triangle reaches the cuboid.
 fn nearest(corners: &[DVec3; 3], normal: DVec3, half: DVec3) -> Option<[DVec3; 2]> {
     let mut best = (f64::INFINITY, [DVec3::ZERO; 2]);
     let mut offer = |on_triangle: DVec3, on_cuboid: DVec3| {
@@ -79,7 +79,7 @@ fn nearest(corners: &[DVec3; 3], normal: DVec3, half: DVec3) -> Option<[DVec3; 2
         let (from, along) = (corners[edge], corners[(edge + 1) % 3] - corners[edge]);
         let third = corners[(edge + 2) % 3] - from;
         let inwards = normal.cross(along);
-        // Whichever way around the corners are seen.
+        // For either winding of the corners.
         inwards.dot(foot - from) * inwards.dot(third) >= 0.0
     });
     if is_inside {
@@ -88,10 +88,10 @@ fn nearest(corners: &[DVec3; 3], normal: DVec3, half: DVec3) -> Option<[DVec3; 2
     (best.0 > 0.0 && best.0 < f64::INFINITY).then_some(best.1)
 }
 
-/// The share of a stretch at which it is nearest to a cuboid with these half extents.
+/// The fraction of a segment at which it is nearest to a cuboid with these half extents.
 ///
-/// The square of the distance is convex, and its slope is made of straight pieces that meet where the stretch crosses
-/// the planes of the cuboid's faces: what holds the least between two such places is a line.
+/// The squared distance is convex, and its slope is piecewise linear, with breaks where the segment crosses the planes
+/// of the cuboid's faces: between the two breaks around the minimum it is a line.
 fn nearest_on(from: DVec3, along: DVec3, half: DVec3) -> f64 {
     let slope = |share: f64| {
         let at = from + along * share;
@@ -106,7 +106,7 @@ fn nearest_on(from: DVec3, along: DVec3, half: DVec3) -> f64 {
     }
     let places = [(half - from) / along, (-half - from) / along];
     for share in places.into_iter().flat_map(|places| places.to_array()) {
-        // What is not a number is not between.
+        // NaN is not between.
         if share > low.0 && share < high.0 {
             let at = (share, slope(share));
             if at.1 < 0.0 { low = at } else { high = at }
@@ -146,7 +146,7 @@ mod tests {
                     grid = grid.min((at - at.clamp(-half, half)).length());
                 }
             }
-            // Where the plane passes through the cuboid its lowest corner is not what is nearest, nor claimed to be.
+            // Where the plane passes through the cuboid, its lowest vertex is not the nearest point, nor claimed to be.
             let low = normal.dot(corners[0]) + half.dot(normal.abs());
             if grid < 0.2 || low > 0.0 && round % 3 == 0 {
                 continue;

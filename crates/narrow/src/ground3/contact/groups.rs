@@ -1,15 +1,15 @@
-//! Contact points by their normals: one group is one manifold.
+//! Contact points grouped by normal: one group becomes one manifold.
 //!
 //! ```text
-//! a normal within the tolerance of a group's joins it; the group's own is that of the largest triangle in it
-//! a point that is there already, by name or by place, stays once: the deeper
-//! a group that is full:    only the corners of what it covers stay
-//! too many normals:        the deepest stay
-//! normals that moved near each other: one group
-//! at last:                 the corners around the patch, four of them at most, and always one as deep as any
+//! a normal within the tolerance of a group's joins that group, whose normal is the one of its largest triangle
+//! a point that is there already, by feature ids or by position, is kept once: the deeper
+//! a group that is full:           only the corners of the area that its points cover stay
+//! too many normals:               the deepest groups stay
+//! normals that came to be equal:  their groups are joined
+//! at last:                        the corners around the patch, at most four, and always one as deep as any
 //! ```
-//! The largest triangle's normal, and not the deepest's or the first's: of triangles that were meant to lie in one
-//! plane it is rounded least, and it is another one the least often while a body slides.
+//! The normal of the largest triangle, not of the deepest or the first: among triangles that were meant to be coplanar
+//! it has the least rounding error, and it changes least often while a body slides.
 
 use super::facet::is_same;
 use crate::feature::{Feature, FeatureId};
@@ -17,7 +17,7 @@ use crate::polyhedron::reduce::{Spot, pick_four};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
-/// Most normals of a part at a time. Of a body that touches ground of more, the deepest stay.
+/// Most normals of a part at a time. Where a body touches ground with more, the deepest stay.
 pub(super) const MOST_GROUPS: usize = 16;
 
 /// Most points of a group before only its corners are kept.
@@ -29,47 +29,48 @@ pub(super) struct Pin {
     pub(super) on_body: DVec3,
     pub(super) on_ground: DVec3,
     pub(super) separation: f64,
-    /// By how much that may be off, in metres.
+    /// Error bound of the separation, in metres.
     pub(super) doubt: f64,
     pub(super) of_body: Feature,
     pub(super) of_ground: Feature,
 }
 
-/// A normal, and what it rests on.
+/// A normal, and the ground that gave it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Base {
     /// Unit normal from the ground to the body.
     pub(super) normal: DVec3,
-    /// The least triangle of the patch.
+    /// The lowest triangle number of the patch.
     pub(super) patch: u32,
-    /// Of several the normal of the greatest is taken: an area, or zero where it is not a face's own.
+    /// Of several normals the one with the greatest weight is taken: the triangle's area, or zero where it is not a
+    /// triangle's normal.
     pub(super) weight: f64,
-    /// How far the part reaches behind the plane of a face, of several the furthest: below zero, in metres; infinite
-    /// where it is not a face's own.
+    /// The height of the part's lowest point over the triangle's plane, the lowest of several: negative behind it, in
+    /// metres; infinite where it is not a triangle's normal.
     pub(super) behind: f64,
 }
 
-/// Nothing told yet.
+/// Nothing reported yet.
 const NOTHING_TOLD: [f64; 2] = [f64::INFINITY, 0.0];
 
 /// A normal and its points.
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
-    /// The least separation that was told of it so far, of points that have gone, too, and by how much that may be off.
+    /// The least separation reported for it so far, including points that were dropped since, and its error bound.
     pub(super) told: [f64; 2],
-    /// By how much that may exceed the truth beside it, as far as was noted, in metres.
+    /// By how much the true separation may be less because of low bends, as far as noted, in metres.
     pub(super) hidden: f64,
 }
 
 /// All normals of a part.
 pub(super) struct Groups {
     groups: ArrayVec<Group, MOST_GROUPS>,
-    /// Places that differ by no more are the same, in metres.
+    /// Positions that differ by no more count as the same, in metres.
     slack: f64,
-    /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
+    /// Points no further than this above the deepest count as deep as it where four of more are chosen, in metres.
     even: f64,
-    /// What is deeper is left out, in metres.
+    /// Deeper points are left out, in metres.
     floor: f64,
 }
 
@@ -78,18 +79,19 @@ impl Pin {
         FeatureId::new(self.of_body, self.of_ground)
     }
 
-    /// Whether it stands for the same: by name, or by place.
+    /// Whether it is the same contact: by feature ids, or by position.
     fn is_same_as(&self, other: &Self, slack: f64) -> bool {
         self.is_named_as(other) || (self.on_body - other.on_body).length_squared() <= slack * slack
     }
 
-    /// Whether it has the same name, or is of the same vertex, which touches ground of one normal once.
+    /// Whether it has the same feature ids, or the same vertex of the body, which touches ground along one normal only
+    /// once.
     fn is_named_as(&self, other: &Self) -> bool {
         let is_vertex = matches!(self.of_body, Feature::Vertex(_));
         self.of_body == other.of_body && (is_vertex || self.of_ground == other.of_ground)
     }
 
-    /// What comes first of points that are as deep: on a face, then by name.
+    /// The order among points that are equally deep: on a face first, then by feature ids.
     fn rank(&self) -> (bool, FeatureId) {
         (!matches!(self.of_ground, Feature::Face(_)), self.id())
     }
@@ -101,13 +103,13 @@ impl Groups {
         Self { groups: ArrayVec::new(), slack, even, floor: f64::NEG_INFINITY }
     }
 
-    /// Leaves out from now on what is deeper than that, in metres.
+    /// Leaves out points that are deeper than this from now on, in metres.
     #[inline]
     pub(super) fn leave_out(&mut self, below: f64) {
         self.floor = below;
     }
 
-    /// What is deeper is left out, in metres.
+    /// The separation below which points are left out, in metres.
     pub(super) fn floor(&self) -> f64 {
         self.floor
     }
@@ -116,27 +118,27 @@ impl Groups {
         self.groups.iter()
     }
 
-    /// The least separation that was found; infinite without any.
+    /// The least separation found; infinite without any.
     pub(super) fn least(&self) -> f64 {
         self.groups.iter().map(Group::found).fold(f64::INFINITY, f64::min)
     }
 
-    /// The normal along which it was found, and its deepest point on the body.
+    /// The normal along which that was found, and the deepest point on the body.
     pub(super) fn nearest(&self) -> Option<(DVec3, DVec3)> {
         let nearest = self.groups.iter().min_by(|one, other| one.found().total_cmp(&other.found()))?;
         let deepest = nearest.deepest()?;
         Some((nearest.base.normal, nearest.pins[deepest].on_body))
     }
 
-    /// Notes that ground with this normal may be as near as a bound says: from each group of the same normal it hides
-    /// what `most` makes of the group's own normal and of how much nearer the bound is.
+    /// Notes that ground with this normal may be as near as `bound`. Groups with the same normal then hide what `most`
+    /// makes of the group's normal and of how much lower the bound is.
     pub(super) fn hide(&mut self, normal: DVec3, bound: f64, most: impl Fn(DVec3, f64) -> f64) {
         for group in self.groups.iter_mut().filter(|group| is_same(group.base.normal, normal)) {
             group.hidden = group.hidden.max(most(group.base.normal, group.found() - bound));
         }
     }
 
-    /// The least separation that was found along a normal; infinite without any.
+    /// The least separation found along a normal; infinite without any.
     pub(super) fn least_along(&self, normal: DVec3) -> f64 {
         self.along(normal).map_or(f64::INFINITY, Group::found)
     }
@@ -150,7 +152,7 @@ impl Groups {
         self.slack
     }
 
-    /// Adds a point. Cost: linear in the normals and in the points of its own.
+    /// Adds a point. Cost: linear in the groups, and in the points of its own.
     pub(super) fn add(&mut self, base: &Base, pin: Pin) {
         if pin.separation < self.floor {
             return;
@@ -173,14 +175,14 @@ impl Groups {
             }
             return;
         }
-        // Made empty and filled where it stays: it is large.
+        // Made empty and filled in place: it is large.
         self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: NOTHING_TOLD, hidden: 0.0 });
         if let Some(group) = self.groups.last_mut() {
             group.pins.push(pin);
         }
     }
 
-    /// Tells how near a normal's points are, and by how much that may be off, where they stand for more than there are.
+    /// Records a separation along a normal, and its error bound, where the points stand for more than are kept.
     pub(super) fn tell(&mut self, normal: DVec3, told: [f64; 2]) {
         let group = self.groups.iter_mut().find(|group| is_same(group.base.normal, normal));
         if let Some(group) = group.filter(|_| told[0] >= self.floor) {
@@ -188,7 +190,7 @@ impl Groups {
         }
     }
 
-    /// Tells the same of the normal whose points are the nearest.
+    /// Sets the same for the group with the least separation.
     pub(super) fn tell_nearest(&mut self, told: [f64; 2]) {
         let nearest = self.groups.iter_mut().min_by(|one, other| one.found().total_cmp(&other.found()));
         if let Some(group) = nearest {
@@ -196,12 +198,13 @@ impl Groups {
         }
     }
 
-    /// The first that is found of a normal and its points.
+    /// The first result that `find` gives for any group's base and points.
     pub(super) fn find_on<T>(&self, mut find: impl FnMut(&Base, &Pin) -> Option<T>) -> Option<T> {
         self.groups.iter().find_map(|group| group.pins.iter().find_map(|pin| find(&group.base, pin)))
     }
 
-    /// Removes points that are deeper than rounding allows of shapes that share no point, and groups without any left.
+    /// Removes points that are deeper than rounding allows for shapes that share no point, and groups that are left
+    /// without points.
     pub(super) fn keep_within(&mut self, least: f64) {
         for group in &mut self.groups {
             group.pins.retain(|pin| pin.separation >= least - pin.doubt);
@@ -212,8 +215,8 @@ impl Groups {
         self.groups.retain(|group| !group.pins.is_empty());
     }
 
-    /// Reduces each group to what a manifold holds, and tells their places in the order of their patches: they are
-    /// large, and stay where they are.
+    /// Reduces each group to what a manifold holds, and returns the groups' indices in the order of their patches: the
+    /// groups are large, and stay in place.
     pub(super) fn finish(&mut self) -> ArrayVec<u8, MOST_GROUPS> {
         let sizes = [self.slack, self.even];
         self.join(sizes);
@@ -225,8 +228,8 @@ impl Groups {
         order
     }
 
-    /// Joins normals that have come to be the same: that of a larger triangle moves a group's, and may move it near
-    /// another's.
+    /// Joins groups whose normals have become the same: a larger triangle replaces a group's normal, and may bring it
+    /// near another's.
     fn join(&mut self, sizes: [f64; 2]) {
         let mut place = 0;
         while place < self.groups.len() {
@@ -242,24 +245,24 @@ impl Groups {
             group.tell(told);
             group.hidden = group.hidden.max(hidden);
             pins.into_iter().for_each(|pin| group.add(pin, sizes));
-            // Its own may have moved near one that is before it.
+            // Its normal may have moved near one of an earlier group.
             place = 0;
         }
     }
 
-    /// One by its place.
+    /// A group by its index.
     pub(super) fn at(&self, place: u8) -> Option<&Group> {
         self.groups.get(usize::from(place))
     }
 }
 
 impl Base {
-    /// Of a normal that is not a face's own.
+    /// For a normal that is not a triangle's.
     pub(super) fn along(normal: DVec3, patch: u32) -> Self {
         Self { normal, patch, weight: 0.0, behind: f64::INFINITY }
     }
 
-    /// Takes another of the same normal in.
+    /// Merges another base with the same normal.
     fn join(&mut self, other: &Self) {
         if other.weight > self.weight {
             (self.normal, self.weight) = (other.normal, other.weight);
@@ -270,14 +273,14 @@ impl Base {
 }
 
 impl Group {
-    /// Tells how near its points are, and by how much that may be off, where that is nearer than was told.
+    /// Records a separation and its error bound, if it is less than that recorded so far.
     fn tell(&mut self, told: [f64; 2]) {
         if told[0] < self.told[0] {
             self.told = told;
         }
     }
 
-    /// The least separation of its points, or what was told of them.
+    /// The least separation of its points, or the one recorded for them if that is less.
     pub(super) fn found(&self) -> f64 {
         self.least().min(self.told[0])
     }
@@ -290,7 +293,7 @@ impl Group {
     fn add(&mut self, pin: Pin, [slack, even]: [f64; 2]) {
         if let Some(place) = self.pins.iter().position(|known| known.is_same_as(&pin, slack)) {
             let known = self.pins[place];
-            // One of them goes; how near it is stays.
+            // One of them is dropped; the lesser separation is kept.
             let nearer = if pin.separation < known.separation { pin } else { known };
             self.tell([nearer.separation, nearer.doubt]);
             let is_deeper = pin.separation < known.separation - slack;
@@ -310,7 +313,7 @@ impl Group {
             if around.len() > MOST_POINTS / 2 {
                 around = self.four_of(&around, &places, even);
             }
-            // There is room for the deepest beside them, which is told whatever is kept at last.
+            // There is room for the deepest too, which is reported whatever is kept at last.
             if let Some(deepest) = self.deepest().filter(|deepest| !around.contains(deepest)) {
                 let _ = around.try_push(deepest);
             }
@@ -319,7 +322,7 @@ impl Group {
         let _ = self.pins.try_push(pin);
     }
 
-    /// Of a point that took another's place, and one that has its name, keeps the deeper.
+    /// Of a point that replaced another, and a point with the same feature ids, keeps the deeper.
     fn keep_one_named_as(&mut self, place: usize) {
         let pin = self.pins[place];
         let is_other = |&other: &usize| other != place && self.pins[other].is_named_as(&pin);
@@ -329,7 +332,7 @@ impl Group {
         }
     }
 
-    /// Keeps four of the points around the patch at most, and one that is as deep as any.
+    /// Keeps at most four of the points around the patch, one of them as deep as any.
     fn reduce(&mut self, [slack, even]: [f64; 2]) {
         for place in 0..self.pins.len() {
             let Pin { separation, doubt, .. } = self.pins[place];
@@ -359,30 +362,30 @@ impl Group {
         self.keep(around);
     }
 
-    /// The place of the deepest point in the list.
+    /// The index of the deepest point.
     fn deepest(&self) -> Option<usize> {
         let least = self.least();
         self.pins.iter().position(|pin| pin.separation == least)
     }
 
-    /// Keeps points by their places in the list.
+    /// Keeps the points with these indices.
     fn keep(&mut self, mut kept: ArrayVec<usize, MOST_POINTS>) {
         kept.sort_unstable();
-        // Where they stay: moved as a whole, they are large.
+        // Moved one by one, in place: the list is large.
         for (to, &from) in kept.iter().enumerate() {
             self.pins[to] = self.pins[from];
         }
         self.pins.truncate(kept.len());
     }
 
-    /// Where the points are in the plane of the normal, from the first of them.
+    /// The points' positions in the plane of the normal, relative to the first.
     fn places(&self) -> ArrayVec<[f64; 2], MOST_POINTS> {
         let (x, y) = self.base.normal.any_orthonormal_pair();
         let from = self.pins.first().map_or(DVec3::ZERO, |pin| pin.on_ground);
         self.pins.iter().map(|pin| [x.dot(pin.on_ground - from), y.dot(pin.on_ground - from)]).collect()
     }
 
-    /// The points around what the group covers, clockwise; what lies on the line between two others is left out.
+    /// The convex hull of the points in that plane, clockwise; points on the line between two others are left out.
     ///
     /// Andrew, "Another efficient algorithm for convex hulls in two dimensions" (1979).
     fn around(&self, places: &[[f64; 2]], slack: f64) -> ArrayVec<usize, MOST_POINTS> {
@@ -396,7 +399,7 @@ impl Group {
         half(order.iter().copied(), places, slack, &mut around);
         let halfway = around.len();
         half(order.iter().rev().copied(), places, slack, &mut around);
-        // By rounding, one may be beside a line on both its sides; it is one corner all the same.
+        // By rounding, a point may be in both halves of the hull; it is one corner all the same.
         for place in (halfway..around.len()).rev() {
             if around[..halfway].contains(&around[place]) {
                 around.remove(place);
@@ -405,7 +408,7 @@ impl Group {
         around
     }
 
-    /// Four of those around.
+    /// Four of the points around.
     fn four_of(&self, around: &[usize], places: &[[f64; 2]], even: f64) -> ArrayVec<usize, MOST_POINTS> {
         let spot = |i: usize| Spot { at: places[around[i]], separation: self.pins[around[i]].separation };
         let four = pick_four(around.len(), spot, |i| self.pins[around[i]].id(), even);
@@ -413,7 +416,7 @@ impl Group {
     }
 }
 
-/// One half of the way around, its last point left for the other.
+/// One half of the hull; its last point is left for the other half.
 fn half(
     order: impl Iterator<Item = usize>,
     places: &[[f64; 2]],
@@ -426,13 +429,13 @@ fn half(
             let ([ax, ay], [bx, by], [cx, cy]) = (places[one], places[other], places[next]);
             let (dx, dy) = (cx - ax, cy - ay);
             let aside = dx * (by - ay) - dy * (bx - ax);
-            // Beside the line by more than the slack: it stays.
+            // Off the line by more than the slack: it stays.
             if aside > slack * (dx.abs() + dy.abs()) {
                 break;
             }
             around.pop();
         }
-        // Full with all points there are, of which this is one: it ends the way, and would be left for the other half.
+        // Full with all points there are, this one among them: it ends this half, and would be left for the other half.
         if around.try_push(next).is_err() {
             return;
         }

@@ -1,4 +1,4 @@
-//! A convex part and one triangle by the general kernels, and which of their axes ground lets through.
+//! A convex part and one triangle by the general kernels, and whether ground accepts their axis.
 
 use super::Asking;
 use super::facet::{Facet, edge_number};
@@ -19,21 +19,21 @@ pub(super) struct Meeting<'a> {
     part: Part<'a>,
     body: &'a Pose3,
     ground_pose: &'a Pose3,
-    /// The ground's axes and its origin as the part sees them.
+    /// The ground's axes and origin in the part's frame.
     relative: Basis3,
     offset: DVec3,
     summed: f64,
 }
 
-/// What the kernels say of a part and a triangle.
+/// What the kernels found for a part and a triangle.
 pub(super) enum Met {
     /// They are further apart than the margin.
     Apart,
-    /// They are not, and points were made of it; whether they share a point.
+    /// They are not, and contact points were added; whether they share a point.
     Told(bool),
-    /// They are not, and ground refused the direction: whether they share a point, whether it is nearly the triangle's
-    /// own, where they are nearest if they share none, and how deep they are, up to an error, of a triangle to which
-    /// that direction is level.
+    /// They are not, and ground rejected the direction: whether they share a point; whether the direction is nearly the
+    /// triangle's normal; the closest points if they share none; and, where they overlap and all of the triangle is
+    /// level in that direction, their separation and its error bound.
     Refused { overlapping: bool, is_own: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
 }
 
@@ -59,8 +59,8 @@ impl<'a> Meeting<'a> {
         self.with(ground, number, |convex| convex.verdict().overlapping).unwrap_or(false)
     }
 
-    /// Asks the kernels, and adds their points where ground lets their axis through: not where the triangle's own
-    /// normal takes its place.
+    /// Calls the kernels, and adds their points if ground accepts their axis; if not, the triangle's normal takes its
+    /// place.
     pub(super) fn add_points(
         &self,
         (ground, facet): (Ground, &Facet),
@@ -70,7 +70,7 @@ impl<'a> Meeting<'a> {
     ) -> Met {
         let place = &standing.place;
         let mut touch = Touch::none();
-        // No points are made along what ground refuses, as it does most often.
+        // No points are made along directions that ground rejects, as it does most often.
         let is_let_through =
             |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
         let Some(near) = self.near((ground, facet), asking, is_let_through, &mut touch) else {
@@ -90,15 +90,15 @@ impl<'a> Meeting<'a> {
         }
     }
 
-    /// Where the part is nearest to a triangle, if it is within the margin and overlaps it in no point.
+    /// The closest points of the part and a triangle, if they are within the margin and share no point.
     pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
         let mut touch = Touch::none();
         let near = self.near(of, asking, |_| false, &mut touch)?;
         unsaid_of(of, place, &near)
     }
 
-    /// Where the part is nearest to a triangle, if it is within the margin; where they overlap, where it is deepest.
-    /// And the direction from there to the part, as the kernels have it.
+    /// The closest points of the part and a triangle, if they are within the margin; where they overlap, the deepest.
+    /// And the direction from the triangle to the part, as the kernels have it.
     pub(super) fn nearest(
         &self,
         of: (Ground, &Facet),
@@ -115,11 +115,10 @@ impl<'a> Meeting<'a> {
         Some((towards, Unsaid::along(of, towards, told, ends)))
     }
 
-    /// What the kernels say, if the two are within the margin; with points, where they are wanted.
+    /// The kernels' result, if the two are within the margin; with contact points, where those are wanted.
     ///
-    /// Of what a gap parts the closest points are asked first, since most often ground refuses them: axes, and what to
-    /// begin with in a next frame, are asked only where points are made. Of cuboids `refused_gap` has said as much
-    /// before.
+    /// Across a gap the closest points are computed first, since most often ground rejects them: axes, and a hint for
+    /// the next frame, are computed only where points are made. For cuboids `refused_gap` has done as much before.
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),
@@ -163,7 +162,7 @@ impl<'a> Meeting<'a> {
             let pin = Pin {
                 on_body: place.point(point.on_a),
                 on_ground: place.point(point.on_b),
-                // Where faces cross beside a corner a point may be lower than the corner is: by what faces are
+                // Where faces cross beside a corner, a point may be lower than the corner: by as much as faces are
                 // preferred by.
                 separation: point.separation.max(told[0]),
                 doubt: told[1],
@@ -172,13 +171,13 @@ impl<'a> Meeting<'a> {
             };
             groups.add(&base, pin);
         }
-        // Points may stand for more than there are, and then none need be as near.
+        // Points may stand for more than there are, and then none of them need have the least separation.
         groups.tell(towards, told);
         true
     }
 }
 
-/// Where part and triangle are nearest, in the ground's axes; nothing where they overlap.
+/// The closest points of part and triangle, in the ground's axes; `None` where they overlap.
 fn unsaid_of(of: (Ground, &Facet), place: &Place, near: &Near) -> Option<Unsaid> {
     let [on_a, on_b] = near.closest.filter(|_| !near.verdict.overlapping)?;
     let towards = -place.axes.turn(near.normal);
@@ -186,7 +185,7 @@ fn unsaid_of(of: (Ground, &Facet), place: &Place, near: &Near) -> Option<Unsaid>
     Some(Unsaid::along(of, towards, told, [place.point(on_a), place.point(on_b)]))
 }
 
-/// The name of a triangle's own feature on the ground.
+/// The ground's feature id for a feature of the triangle.
 fn feature_on(ground: Ground, triangle: u32, feature: Feature) -> Feature {
     match feature {
         Feature::Vertex(corner) => {

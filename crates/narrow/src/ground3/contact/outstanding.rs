@@ -1,4 +1,4 @@
-//! Which triangles have an edge or a corner that stands out near the part, and has not been heard of yet.
+//! Which triangles have a prominent edge or corner near the part that has no contact yet.
 
 use super::axes::Axes;
 use super::facet::{Facet, edge_number};
@@ -9,31 +9,33 @@ use crate::feature::Feature;
 use asunder_geometry::Prominent;
 use asunder_geometry::glam::DVec3;
 
-/// What tells of a triangle.
+/// How the contacts of a triangle are found.
 pub(super) enum Needs {
-    /// Its own normal.
+    /// Along its normal.
     Normal,
-    /// Of what is deep its own normal; of what is parted from it by a gap the kernels.
+    /// Penetrating points along its normal, points across a gap by the kernels.
     KernelsBeside,
     Kernels,
 }
 
-/// How much of a triangle was said by another.
+/// How much of a triangle is covered by contacts found through its neighbours.
 pub(super) enum Explained {
-    /// All; how near it is at least.
+    /// All of it; a lower bound on its separation.
     Wholly(f64),
-    /// What is deep.
+    /// Penetrating points only.
     WhereDeep,
 }
 
 impl Seen<'_> {
-    /// Whether an edge or corner that stands out is so near that the triangle's own normal may not be the answer. Where
-    /// that is so for the margin alone, it is the answer of what is deep.
+    /// How the contacts of a triangle are found: by the kernels where a prominent edge or corner is so near that the
+    /// triangle's normal may not be the answer. Where it is that near only because of the margin, the normal still is
+    /// the answer for penetrating points.
     #[inline(never)]
     pub(super) fn needs(&self, prism: &Prism, prominent: Prominent) -> Needs {
         let Prism { ground, standing, facet, extent, .. } = *prism;
         let is_front = facet.is_front;
-        // Two-sided ground that the part is in may bend the other way, and end there all the same.
+        // Where the part penetrates two-sided ground, edges that bend the other way may be where the ground ends for
+        // it.
         let is_in = extent.low - standing.radius < -standing.slack && !ground.is_one_sided();
         if !(prominent.any(is_front) || is_in && prominent.any(!is_front)) {
             return Needs::Normal;
@@ -61,16 +63,17 @@ impl Seen<'_> {
         Needs::Kernels
     }
 
-    /// Whether of what is deep its own normal would be the answer without a margin: fewer sides count then.
+    /// Whether without a margin, when fewer sides count, the triangle's normal would be the answer for penetrating
+    /// points.
     #[inline]
     fn is_for_margin_alone(&self, prism: &Prism, (squares, counts): ([f64; 3], [bool; 3])) -> bool {
         let without = are_within(squares, self.standing.outer_radius + touching() + prism.doubt);
         without != counts && (without == [false; 3] || prism.is_short(without)) && self.is_in_ball(prism)
     }
 
-    /// How much of what a triangle has to say was said by another around the same corner, or beside the same edge:
-    /// along the normal that it gave, nothing else of this one is within reach. What the part may be deep in is
-    /// explained by what touches alone, as it is without a margin.
+    /// How much of a triangle is covered by a contact that a neighbour gave at a shared corner or edge: along the
+    /// normal of that contact, nothing else of this triangle is within reach. Where the part may be deep in the
+    /// triangle, only contacts that touch count, as they would without a margin.
     pub(super) fn explained(
         &self,
         (prism, axes): (&Prism, Option<&Axes>),
@@ -131,8 +134,8 @@ impl Facet {
 }
 
 impl Prism<'_> {
-    /// Whether its own normal is the answer by the short way: the part's lowest vertex is well inside of the edges that
-    /// count.
+    /// Whether the triangle's normal is the answer by the fast path: the part's lowest vertex is well inside the edges
+    /// that count.
     #[inline(always)]
     fn is_short(&self, counts: [bool; 3]) -> bool {
         let Self { standing, facet, extent, .. } = *self;

@@ -1,4 +1,4 @@
-//! How a part stands over the plane of a triangle, which most often is that of the one before.
+//! The extent of a part over a triangle's plane, which most often is the plane of the triangle before.
 
 use super::Seen;
 use super::facet::Facet;
@@ -7,21 +7,22 @@ use super::standing::Extent;
 use asunder_geometry::NearTriangle;
 use asunder_geometry::glam::DVec3;
 
-/// A triangle, and how a part stands over its plane.
+/// A triangle, and the part's extent over its plane.
 pub(super) struct Plane {
     pub(super) patch: u32,
     pub(super) facet: Facet,
     pub(super) extent: Extent,
-    /// What heights may be off by, in metres.
+    /// Error bound of heights, in metres.
     pub(super) doubt: f64,
 }
 
 impl Seen<'_> {
-    /// Makes the plane that of a triangle, and of how the part stands over it, which most often is that of the one
-    /// before; whether not all of the part is further from it than is wanted, on whichever side. In place: it is large.
+    /// Sets `plane` to a triangle's plane and the part's extent over it; most often those of the triangle before are
+    /// kept. Returns false where all of the part is further from the plane than the reach, on either side, or the
+    /// triangle is not seen. In place: it is large.
     pub(super) fn is_within(&self, near: &NearTriangle, plane: &mut Option<Plane>) -> bool {
         let (ground, standing, patch) = (self.asking.on.ground, self.standing, near.patch);
-        // Beside the sides of a triangle that is larger by far more is lost than over the plane of the one before.
+        // Beside the sides of a much larger triangle more is lost to rounding than over the plane of the one before.
         if let Some(plane) = plane.as_mut().filter(|plane| plane.patch == patch)
             && plane.facet.move_on(ground, near.number, 0.25 * plane.doubt, standing.center)
             && self.doubt_over(&plane.facet) <= 0.75 * plane.doubt
@@ -29,10 +30,11 @@ impl Seen<'_> {
             return true;
         }
         let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return false };
-        // Twice: others of the patch may lie off the plane by a quarter of it, which leaves three for what is rounded.
+        // Twice: other triangles of the patch may lie off the plane by a quarter of it, which leaves three quarters for
+        // rounding.
         let doubt = 2.0 * self.doubt_over(&facet);
         let beyond = self.asking.reach + standing.radius + doubt;
-        // Most are out of reach by the box around the part: its vertices need not be looked at.
+        // Most triangles are out of reach of the box around the part: its vertices need not be read.
         if facet.height(standing.middle).abs() - standing.reach_along(facet.normal) > beyond + doubt {
             return false;
         }
@@ -51,13 +53,13 @@ impl Seen<'_> {
         true
     }
 
-    /// The same of a triangle by its own plane, however far it is: nothing where it is not seen.
+    /// The same for a triangle by its own plane, however far away it is; `None` where it is not seen.
     pub(super) fn plane_of(&self, number: u32) -> Option<Plane> {
         Facet::seen(self.asking.on.ground, number, self.standing.center).map(|facet| self.over(facet))
     }
 
-    /// The same of a triangle as it is seen along a direction, whichever of its sides the part is on: beside bends of
-    /// two-sided ground a flat patch may be seen from both. Of one-sided ground, only what is seen.
+    /// The same for a triangle as seen along a direction, whichever side the part is on: beside bends of two-sided
+    /// ground a flat patch may be seen from both sides. For one-sided ground, as `plane_of`.
     pub(super) fn plane_towards(&self, number: u32, direction: DVec3) -> Option<Plane> {
         let ground = self.asking.on.ground;
         if ground.is_one_sided() {
@@ -76,7 +78,7 @@ impl Seen<'_> {
         Plane { patch, facet, extent, doubt }
     }
 
-    /// The triangle, the part over it, and what is asked of both.
+    /// The triangle and the part over it, with the reach of the query.
     pub(super) fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
         let Plane { facet, extent, doubt, .. } = plane;
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);

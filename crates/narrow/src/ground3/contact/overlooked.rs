@@ -1,20 +1,19 @@
-//! What many low bends in a row hide of the least of all, looked for once more.
+//! A second search for the least separation, where many low bends in a row may hide some of it.
 //!
 //! ```text
-//! what is told may be further than ground is, by bounds that cost little                                  (protrusion)
-//! for each triangle near the part that has such a bend, again:
-//!     by its plane, a face of the part, the normal that is told, or any axis that costs little, it is no nearer than what
-//!         is told: done
-//! of those that are left, the nearest by these bounds first, the kernels are asked:
-//!     nearer than all that is told, and so along its own normal but for a few low bends: it is told
+//! cheap lower bounds leave open that ground is nearer than the least separation found                     (protrusion)
+//! for each triangle near the part that has such a bound, again:
+//!     its plane, a face of the part, the normals found, or any cheap axis show that it is no nearer: done
+//! the kernels are called for those that are left, in the order of these bounds:
+//!     nearer than all that was found, and along its normal up to a few low bends: its separation is reported
 //! ```
-//! Told as what a group's points have between them, where that has the same normal and the same ground; else as a point
-//! of its own: so a crate stands on the top of a dome that falls away under its corners. What is left goes into the
-//! error: a millionth of a body at most, or where more were left open than are asked about, what their bounds leave; of
-//! an overlap a thousandth of the radius at most.
+//! Where a group has the same normal and the same ground, this separation is recorded as one between the group's
+//! points; else a point is added: so a crate stands on the top of a dome that falls away under its corners. What
+//! remains goes into the error: at most a millionth of the body or, where more triangles were left than kernels are
+//! called for, what their bounds leave open; in overlap at most a thousandth of the radius.
 //!
-//! A body on a dome of bends below 1e-4 pays for ground twice or more. On a plane nobody comes here, nor where bends
-//! are such as one sees; on a plane that was turned as a whole, capsules and wide bodies may.
+//! A body on a dome with bends below 1e-4 pays for ground twice or more. On a plane this search never runs, nor where
+//! bends are large enough to see; on a plane that was rotated as a whole it may run for capsules and wide bodies.
 
 use super::facet::Facet;
 use super::prism::Prism;
@@ -26,37 +25,37 @@ use asunder_geometry::NearTriangle;
 use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
-/// Triangles about which kernels are asked between two looks at all of them. In a gap the first is most often the
-/// nearest, and the direction in which it is shows that others are not.
+/// Most triangles for which kernels are called between two passes over all of them. Across a gap the first is most
+/// often the nearest, and its direction proves that the others are not.
 const MOST_ASKED: usize = 8;
 
-/// Looks at all of them.
+/// Most passes over all of them.
 const MOST_LOOKS: usize = 4;
 
-/// How much may be left to the error, in slacks. With a half, capsules on a floor that was turned as a whole, whose
-/// bends are the rounding of f32, took up to twice the time; with four, one error in ten on hills was above a millionth
-/// of the body (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24).
+/// How much may be left to the error, in slacks. With a half, capsules on a floor that was rotated as a whole, whose
+/// bends are f32 rounding, took up to twice the time; with four, one error in ten on hills was above a millionth of the
+/// body (AMD EPYC, Zen 5, 2 virtual cores, 2026-11-24).
 const LEEWAY: f64 = 0.875;
 
-/// Share of the radius by which ground that is overlapped may be deeper than what is told of it, and be hidden by low
-/// bends: tens of them in a row under one body. No error grows by more. With a sixteenth, bodies that stick through
-/// ground were told with errors of a hundredth of their radius, in one case of ten thousand.
+/// In overlap, the share of the radius by which low bends, tens of them in a row under one body, may hide depth beyond
+/// what is reported. No error grows by more. With a sixteenth, bodies that stick through ground were reported with
+/// errors of a hundredth of their radius, in one case of ten thousand.
 const DEEPER: f64 = 1.0 / 1024.0;
 
-/// Triangles that may be nearer than what is told, and bounds on how near.
+/// Triangles that may be nearer than the least separation found, with lower bounds on theirs.
 struct Open {
     nearest: ArrayVec<(f64, u32), MOST_ASKED>,
-    /// A bound for all others.
+    /// A lower bound for all others.
     rest: f64,
 }
 
-/// What is known by now.
+/// The triangles for which kernels have been called, and what that showed.
 struct Asked {
     numbers: ArrayVec<u32, { MOST_ASKED * MOST_LOOKS }>,
-    /// Unit directions to the part, along which something is as near as is told, and how low the part reaches along
-    /// each, in metres from its centre; and the point of the core that is there.
+    /// Unit directions from the ground to the part along which closest points were found, how low the part reaches
+    /// along each, in metres from its centre, and the core's point there.
     axes: ArrayVec<(DVec3, f64, DVec3), MOST_ASKED>,
-    /// A bound on all of them.
+    /// A lower bound on the separations of all of them.
     lowest: f64,
 }
 
@@ -73,8 +72,8 @@ impl Open {
 }
 
 impl Seen<'_> {
-    /// Sees to it that no triangle with a low bend is nearer than what is told, but for what goes into the error.
-    /// Whether the part is within the margin is known by now, unless nothing was told of it.
+    /// Makes sure that no triangle with a low bend is nearer than the least separation reported, except for what goes
+    /// into the error. Whether the part is within the margin is already known, unless nothing was found for it.
     pub(super) fn bound_least(&self, known: &mut Known, is_wanted: bool) {
         if !is_wanted && known.groups.least() < f64::INFINITY {
             return;
@@ -87,19 +86,19 @@ impl Seen<'_> {
         };
     }
 
-    /// A bound above which nothing need be known.
+    /// Triangles with bounds above this need not be examined.
     fn enough(&self, known: &Known) -> f64 {
         known.groups.least().min(self.asking.margin.into()) - LEEWAY * self.standing.slack
     }
 
-    /// A bound below which triangles are other ground. What is nearest along a triangle's own normal, but for a few low
-    /// bends, is no further than its plane and those.
+    /// Triangles with bounds below this are other ground: the closest point along a triangle's normal, up to a few low
+    /// bends, is no further than its plane and those bends.
     fn floor(&self, known: &Known) -> f64 {
         let radius = self.standing.outer_radius;
         if known.overlapping { known.groups.least() - DEEPER * radius } else { -2.0 * window(radius) }
     }
 
-    /// Looks once more at triangles with low bends; a bound on how near any of them is.
+    /// Searches the triangles with low bends again; returns a lower bound on the separations of all of them.
     #[inline(never)]
     fn look_again(&self, known: &mut Known) -> f64 {
         let mut asked =
@@ -121,7 +120,7 @@ impl Seen<'_> {
             }
         }
         if is_any_told && known.levels.is_crowded {
-            // What is hidden of the manifold that came last.
+            // To note what is hidden of the manifold that was added last.
             let _ = self.nearest_of_low(&asked, known);
         }
         asked.lowest.min(rest)
@@ -132,7 +131,7 @@ impl Seen<'_> {
         let _ = asked.axes.try_push((normal, low, on_body + normal * self.standing.radius));
     }
 
-    /// A bound on how near a triangle is, along any axis known by now.
+    /// A lower bound on a triangle's separation, by the axes known so far.
     fn bound_by(&self, asked: &Asked, facet: &Facet) -> f64 {
         let center = self.standing.center;
         let bound = |&(normal, low, _): &(DVec3, f64, DVec3)| {
@@ -142,7 +141,7 @@ impl Seen<'_> {
         asked.axes.iter().map(bound).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Asks the kernels about a triangle, and tells what they say where it is nearer than all that is told; whether it
+    /// Calls the kernels for a triangle, and reports its separation if that is less than all found; returns whether it
     /// is.
     fn ask(&self, number: u32, bound: f64, asked: &mut Asked, known: &mut Known) -> bool {
         let (ground, standing, enough) = (self.asking.on.ground, self.standing, self.enough(known));
@@ -169,8 +168,8 @@ impl Seen<'_> {
         is_nearer
     }
 
-    /// Goes through all triangles with low bends that were not asked about. What they hide of other manifolds than the
-    /// nearest is noted where not all levels were kept.
+    /// Passes over all triangles with low bends for which no kernels were called. Where not all levels were kept, it
+    /// notes what they may hide of manifolds other than the nearest.
     fn nearest_of_low(&self, asked: &Asked, known: &mut Known) -> Open {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let (floor, enough) = (self.floor(known), self.enough(known));
@@ -204,7 +203,7 @@ impl Seen<'_> {
         open
     }
 
-    /// A triangle if it has a low bend, and a bound on how near it is.
+    /// A triangle, if it has a low bend, and a lower bound on its separation.
     fn low(&self, near: &NearTriangle, known: &mut Known) -> Option<(Facet, f64)> {
         let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
         if !near.prominent.bends_low() {

@@ -1,4 +1,4 @@
-//! A half-space that lies on ground: its one normal, and the corners of ground that reach furthest into it.
+//! A half-space on ground: its single normal, and the corners of ground that reach furthest into it.
 
 use super::facet::Facet;
 use super::groups::{Base, Pin};
@@ -9,8 +9,8 @@ use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
 impl Seen<'_> {
-    /// Looks at all triangles, for a half-space whose unit normal this is in the ground's axes; at no more than the
-    /// first that it overlaps, if only yes or no is wanted.
+    /// Processes all triangles, for a half-space with this unit normal in the ground's axes; only up to the first that
+    /// it overlaps, if only yes or no is wanted.
     pub(super) fn look_at_all(&self, normal: DVec3, is_yes_enough: bool, known: &mut Known) {
         let ground = self.asking.on.ground;
         let seen_at = SeenAt::Far(-normal);
@@ -28,7 +28,7 @@ impl Seen<'_> {
         });
     }
 
-    /// Adds the corners of a triangle that a half-space reaches.
+    /// Adds the corners of a triangle that are within reach of a half-space.
     fn add_corners(&self, facet: &Facet, normal: DVec3, known: &mut Known) {
         let (ground, standing, number) = (self.asking.on.ground, self.standing, facet.number);
         let (mut lowest, mut is_unclear) = (f64::INFINITY, false);
@@ -50,7 +50,7 @@ impl Seen<'_> {
     }
 
     /// Adds the corner of a triangle that reaches furthest into a half-space, where exact arithmetic says that they
-    /// share a point, and rounding put all corners outside. A half-space has no vertices to take the lowest of.
+    /// share a point, but rounding put all corners outside. A half-space has no lowest vertex to take instead.
     pub(super) fn add_lowest_corner(&self, number: u32, normal: DVec3, known: &mut Known) {
         let ground = self.asking.on.ground;
         let Some(facet) = Facet::front_of(number, ground.corners(number)) else { return };

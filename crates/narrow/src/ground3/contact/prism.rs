@@ -1,18 +1,18 @@
-//! Contact points by a triangle's own normal: the body's lowest face against the prism over the triangle.
+//! Contact points along a triangle's normal: the part's incident face against the prism over the triangle.
 //!
 //! ```text
-//! the face that the body turns to the triangle, its corners moved out to the surface           (Incident)
-//! corners of it in the prism:                          a vertex of the body on the face
-//! each side of the triangle behind which the ground does not go on in the same plane,
-//! cut by the sides of the body's face:                 its ends, or crossings of two edges
-//! and under the rounds of that face's edges, if it is tilted
-//! what is further up than wanted is left out
+//! incident face of the part, its vertices moved out to the rounded surface                                  (Incident)
+//! vertices of that face in the prism:                             a vertex of the part on the ground's face
+//! each side of the triangle behind which the ground does not continue in the same plane,
+//! clipped by the sides of the incident face:                      its ends, or crossings of two edges
+//! and crossings under the rounded edges of that face, if it is tilted
+//! points across a gap wider than the reach are left out
 //! ```
-//! These are the corners of what the body's face shares with the whole flat patch, and not with the triangle: a side
-//! behind which the patch goes on makes no point. So a body on a floor stands on its own corners wherever the floor was
-//! cut into triangles, the points keep their names while it slides, and no choice of four is asked for. Clipping face
-//! against triangle and merging afterwards leaves a point on every cut, of which the choice of four is another one with
-//! every step.
+//! These are the corners of what the incident face shares with the whole flat patch, not with the triangle: a side
+//! behind which the patch continues makes no point. So a body on a floor stands on its own vertices however the floor
+//! was triangulated, the points keep their feature ids while it slides, and no choice of four is needed. Clipping face
+//! against triangle and merging afterwards would leave a point on every cut, and which four are chosen would change
+//! with every step.
 
 use super::ball::nearest_to;
 use super::facet::{Facet, edge_number};
@@ -27,16 +27,17 @@ use asunder_geometry::tolerance::FLAT;
 use asunder_geometry::{Cuboid, Ground, Shape3};
 use core::cell::Cell;
 
-/// Cosine up to which a body's face looks away from the ground so much that it has no inside as seen along the normal.
+/// Least cosine between a face's outward normal and the reversed triangle's normal: steeper faces have no inside as
+/// seen along the triangle's normal.
 pub(super) const STEEP: f64 = 1e-3;
 
-/// Sine of the angle between a side and an edge below which they do not cross at a certain place.
+/// Sine of the angle between a side and an edge below which their crossing is ill-defined.
 const LEAST_SINE: f64 = 1e-6;
 
-/// Sides of a face that are made once for all sides of a triangle.
+/// Most sides of a face that are computed once for all sides of a triangle.
 const FEW_SIDES: usize = 16;
 
-/// A side of a part's face: a corner, and the way inwards in the triangle's plane.
+/// A side of a part's face as a clip line: a vertex, and the direction inwards in the triangle's plane.
 #[derive(Clone, Copy)]
 pub(super) struct Cut {
     pub(super) half_edge: usize,
@@ -44,20 +45,21 @@ pub(super) struct Cut {
     pub(super) into: DVec3,
 }
 
-/// A stretch of a side of a triangle: two shares of its length, each with the half-edge of the part's face that ends it
-/// there.
+/// An interval of a triangle's side: two fractions of its length, each with the half-edge of the part's face that clips
+/// it there.
 pub(super) type Span = [(f64, Option<usize>); 2];
 
-/// The face of a part that looks against a normal; kept, since neighbours most often have one normal.
+/// The incident face of a part for a normal; cached, since neighbouring triangles most often share a normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Incident {
     normal: DVec3,
     pub(super) face: usize,
-    /// The direction out of the face in which the surface lies beyond the core, if any is across it.
+    /// The unit direction from the core's face to the surface; for a segment the one across it. `None` for a point, and
+    /// for a segment nearly along the normal.
     pub(super) outwards: Option<DVec3>,
 }
 
-/// What of a part stands over a triangle.
+/// A part over a triangle.
 pub(super) struct Prism<'p> {
     pub(super) ground: Ground<'p>,
     pub(super) standing: &'p Standing<'p>,
@@ -65,9 +67,10 @@ pub(super) struct Prism<'p> {
     pub(super) extent: &'p Extent,
     /// The widest gap in which a point is wanted, in metres.
     pub(super) reach: f64,
-    /// What a separation may be off by, in metres.
+    /// Error bound of a separation, in metres.
     pub(super) doubt: f64,
-    /// Points deeper than this are left out, and that is told, unless the part certainly holds what is over them.
+    /// Points deeper than this are left out, and the flag is set, unless the part certainly contains the ground under
+    /// them.
     pub(super) gate: Option<(f64, &'p Cell<bool>)>,
 }
 
@@ -82,25 +85,26 @@ impl Incident {
         Self { normal, face, outwards: standing.solid.outwards(face, -normal) }
     }
 
-    /// Whether it stands for a normal, too: one that is the same up to what f32 vertices leave of a plane.
+    /// Whether it is also the incident face for another normal: one that differs by no more than the rounding of f32
+    /// vertices.
     pub(super) fn is_for(&self, normal: DVec3) -> bool {
         (self.normal - normal).length_squared() <= 1e-14
     }
 }
 
-/// The face that [`opposed_face`] finds, of a cuboid: the most opposed of those that have all the furthest corners.
+/// The face that [`opposed_face`] finds, for a cuboid: the most opposed of those that have all the furthest vertices.
 fn opposed_of_cuboid(normal: DVec3, cuboid: &Cuboid, slack: f64) -> usize {
     let (lean, half) = (normal.abs(), cuboid.half_extents().as_dvec3());
-    // Of a face whose opposite is level with it up to the slack, the furthest corners are on both.
+    // Where a face and its opposite are level within the slack, the furthest vertices are on both.
     let has_all = |axis: usize| 2.0 * half[axis] * lean[axis] > slack;
     let is_better = |axis: usize, than: usize| (has_all(axis), lean[axis]) > (has_all(than), lean[than]);
     let axis = (1..3).fold(0, |best, axis| if is_better(axis, best) { axis } else { best });
-    // Faces are two an axis, the one that looks along it second.
+    // Two faces per axis: the one that faces along it comes second.
     2 * axis + usize::from(normal[axis] < 0.0)
 }
 
 impl Prism<'_> {
-    /// Adds contact points by the triangle's own normal; whether there are any.
+    /// Adds contact points along the triangle's normal; returns whether there are any.
     pub(super) fn add_points(&self, incident: &Incident, groups: &mut Groups) -> bool {
         let base = self.base();
         let mut is_any = self.add_corners(incident, &base, groups);
@@ -112,7 +116,7 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Adds points on those sides of the triangle behind which ground does not go on.
+    /// Adds points on those sides of the triangle behind which the ground does not continue in the same plane.
     fn add_sides(&self, (face, outwards): (usize, DVec3), base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let facing = outwards.dot(facet.normal);
@@ -120,7 +124,7 @@ impl Prism<'_> {
         let (Some(first), true) = (vertices.clone().next(), facing <= -STEEP) else { return false };
         let over = standing.point(first) + outwards * standing.radius;
         let [a, b, c] = facet.corners;
-        // Of a side, all is beyond reach if both its ends are: by more than rounding, for what is between them.
+        // All of a side is beyond reach if both its ends are: by more than rounding, to cover the points between them.
         let beyond = self.reach + (self.doubt + standing.planarity) / -facing;
         let is_far = |corner: DVec3| outwards.dot(over - corner) / facing > beyond;
         let far = [is_far(a), is_far(b), is_far(c)];
@@ -135,8 +139,8 @@ impl Prism<'_> {
         }
         let aside = outwards - facet.normal * facing;
         let is_tilted = standing.radius > 0.0 && aside.length() * standing.radius > standing.slack;
-        // What the round of an edge reaches further than the face's plane where a side passes from under it; more is
-        // told.
+        // By how much a rounded edge reaches further than the face's plane where a side passes out from under it. Where
+        // it would be more than the slack, it gets points instead.
         let rounded = if is_tilted { 0.0 } else { standing.radius * (1.0 / -facing - 1.0) };
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {
@@ -155,23 +159,23 @@ impl Prism<'_> {
         is_any
     }
 
-    /// The sides of a face of the part, as they cut lines in the triangle's plane.
+    /// The sides of a face of the part, as clip lines in the triangle's plane.
     pub(super) fn cuts(&self, face: usize) -> impl Iterator<Item = Cut> + '_ {
         let (standing, topology) = (self.standing, self.standing.solid.topology);
         let first = topology.face_vertices(face).next();
         let mut from = first.map_or(standing.center, |vertex| standing.point(vertex));
         topology.face_half_edges(face).map(move |half_edge| {
-            // A side starts where the one before stops.
+            // Each side starts where the previous one ends.
             let (start, stop) = (from, standing.point(topology.ends(half_edge).1));
             from = stop;
-            // A face goes counter-clockwise as seen from outside, which is against the normal.
+            // A face goes counter-clockwise as seen from outside, so about the reversed normal.
             Cut { half_edge, start, into: (stop - start).cross(self.facet.normal) }
         })
     }
 
-    /// Adds points where a side of the triangle passes under the round of an edge of a face that is tilted: there the
-    /// surface is the round, and the face's plane lies beside it. So a rounded crate stands on a strip of ground that
-    /// its edge leads over from side to side.
+    /// Adds points where a side of the triangle passes under a rounded edge of a tilted face: there the surface is the
+    /// edge's cylinder, and the face's plane lies beside it. So a rounded crate can stand on a strip of ground that its
+    /// edge crosses from side to side.
     fn add_under_rounds(&self, (face, edge): (usize, usize), base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let (from, along) = facet.edge(edge);
@@ -185,7 +189,7 @@ impl Prism<'_> {
             let level = run - facet.normal * facet.normal.dot(run);
             let place = level.dot(on_ground - begin) / level.length_squared();
             let share = along.dot(on_ground - from) / along.length_squared();
-            // What is all but parallel crosses anywhere; what is not a number, nowhere.
+            // Nearly parallel lines cross at no certain place; NaN fails the test.
             let do_cross =
                 change * change > LEAST_SINE * LEAST_SINE * into.length_squared() * along.length_squared();
             if !(do_cross && (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&place)) {
@@ -207,14 +211,14 @@ impl Prism<'_> {
         is_any
     }
 
-    /// Where the round of an edge reaches furthest against the normal: a unit direction across the edge, if it lies
-    /// between the faces beside it.
+    /// Where a rounded edge reaches furthest against the normal: a unit direction square to the edge, if it lies
+    /// between the normals of the two faces beside it.
     fn out_of_round(&self, half_edge: usize, run: DVec3) -> Option<DVec3> {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let out = (run * (normal.dot(run) / run.length_squared()) - normal).try_normalize()?;
         let half_edges = solid.topology.half_edges();
         let twin = usize::from(half_edges[half_edge].twin);
-        // Across each face, away from the edge.
+        // In each face, away from the edge.
         let into =
             |half_edge: usize, run: DVec3| solid.normal(half_edges[half_edge].face as usize).cross(run);
         let slack = 1e-9 * run.abs().element_sum();
@@ -228,20 +232,20 @@ impl Prism<'_> {
         Base { normal, patch: self.ground.patch(number), weight: self.facet.area(), behind }
     }
 
-    /// The lowest point of the part over the triangle's plane, wherever that is.
+    /// The part's lowest point over the triangle's plane, inside the prism or not.
     pub(super) fn lowest(&self) -> Pin {
         let vertex = self.extent.lowest;
         let at = self.standing.point(vertex) - self.facet.normal * self.standing.radius;
         self.pin(at, self.extent.low - self.standing.radius, Feature::Vertex(vertex as u32))
     }
 
-    /// Whether that is over the triangle.
+    /// Whether that point is over the triangle.
     pub(super) fn is_lowest_over(&self) -> bool {
         self.facet.is_over(self.standing.point(self.extent.lowest), self.standing.slack)
     }
 
-    /// Whether the part certainly shares a point with the triangle: a vertex of the core that is nearer to the
-    /// triangle's inside than the radius, or one on either side whose segment crosses the inside.
+    /// Whether the part certainly shares a point with the triangle: its lowest core vertex is above the triangle's
+    /// interior and nearer than the radius, or the segment between its lowest and highest vertex crosses the interior.
     pub(super) fn does_cross(&self) -> bool {
         let Self { standing, facet, extent: &Extent { low, lowest, high, highest }, doubt, .. } = *self;
         let from = standing.point(lowest);
@@ -253,7 +257,7 @@ impl Prism<'_> {
             return false;
         }
         let (share, way) = (low / (low - high), standing.point(highest) - from);
-        // What heights are off by moves the crossing along a segment that is nearly level by far more.
+        // An error in the heights moves the crossing much further where the segment is nearly level.
         let spread = way.length() / (high - low);
         is_inside(from + way * share, 2.0 * doubt * (1.0 + spread))
     }
@@ -264,7 +268,7 @@ impl Prism<'_> {
         Pin { on_body, on_ground, separation, doubt: self.doubt, of_body, of_ground }
     }
 
-    /// Adds the vertices of the part's face that are over the triangle, and the lowest of all.
+    /// Adds the vertices of the incident face that are over the triangle, and the lowest vertex of the part.
     fn add_corners(&self, incident: &Incident, base: &Base, groups: &mut Groups) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let rims = [facet.rim(0, standing.slack), facet.rim(1, standing.slack), facet.rim(2, standing.slack)];
@@ -293,7 +297,7 @@ impl Prism<'_> {
         }
     }
 
-    /// Adds a vertex of the part, moved out, if it is over the triangle.
+    /// Adds a vertex of the part, already moved out to the surface, if it is over the triangle.
     fn add_if_over(
         &self,
         (vertex, (at, separation, up)): (usize, (DVec3, f64, f64)),
@@ -301,7 +305,7 @@ impl Prism<'_> {
         base: &Base,
         groups: &mut Groups,
     ) -> bool {
-        // Above a bend that is too low to give a normal what is nearest may be beside both its triangles, the further
+        // Above a bend too low to give a normal, the nearest vertex may lie beside both its triangles, and the further
         // the higher it is.
         let up = up.max(0.0);
         let is_over = |edge: usize| {
@@ -318,9 +322,9 @@ impl Prism<'_> {
         self.add_pin(pin, base, groups)
     }
 
-    /// Where the surface is that a vertex rounds, its separation, and the height of what it is measured from: the
-    /// vertex where it is as deep as any; else the surface, which belongs to a tilted face, and lies out along its
-    /// normal.
+    /// The surface point for a vertex, its separation, and the height that this is measured from. A vertex as deep as
+    /// any other is moved out against the triangle's normal, and the height is the vertex's. Otherwise the surface
+    /// belongs to a tilted face: it is moved out along that face's normal, and the height is the surface point's.
     #[inline]
     fn moved_out(&self, vertex: usize, incident: &Incident) -> Option<(DVec3, f64, f64)> {
         let (standing, facet) = (self.standing, self.facet);
@@ -334,16 +338,16 @@ impl Prism<'_> {
         Some((at, separation, separation))
     }
 
-    /// By how much a point's height may differ from its distance, in metres, whose foot is outside the triangle by no
-    /// more than the slack. `up` is the height of the point, or of the vertex that it rounds; at 0 that is the whole
-    /// way to the triangle.
+    /// By how much a point's height may differ from its distance, in metres, where its foot lies outside the triangle
+    /// by no more than the slack. `up` is the height of the point, or of the vertex that it was moved out from; at 0
+    /// the difference is the whole distance to the triangle.
     fn overhang(&self, pin: &Pin, up: f64) -> f64 {
         let aside = (pin.on_ground - nearest_to(self.facet, pin.on_ground).1).length();
         (up * up + aside * aside).sqrt() - up
     }
 
-    /// Adds the ends of the span that the part's face covers of a side of the triangle, as seen along the normal;
-    /// `over` is a point of the surface beyond the face, and rounds reach so many metres further.
+    /// Adds the ends of the span of the triangle's side that the part's face covers, as seen along the normal; `over`
+    /// is a point of the surface beyond the face, and rounded edges reach `rounded` metres further.
     fn add_side(
         &self,
         (face, edge): (usize, usize),
@@ -370,8 +374,8 @@ impl Prism<'_> {
         is_any
     }
 
-    /// What a point on an edge of the triangle is named after, at a share of its length where a half-edge of the part's
-    /// face passes over it, or at its nearer end.
+    /// The feature ids of a point on an edge of the triangle, at a fraction of its length: of both edges where a
+    /// half-edge of the part's face clips it there, else of the face and the nearer corner.
     pub(super) fn names_on_edge(
         &self,
         face: usize,
@@ -388,7 +392,7 @@ impl Prism<'_> {
         (Feature::Face(face as u32), Feature::Vertex(numbers[corner % 3]))
     }
 
-    /// Adds a point that the gate lets through; whether it did.
+    /// Adds a point unless the gate leaves it out; returns whether it did.
     fn add_pin(&self, pin: Pin, base: &Base, groups: &mut Groups) -> bool {
         if let Some((least, is_left_out)) = self.gate
             && pin.separation < least
@@ -402,13 +406,14 @@ impl Prism<'_> {
         true
     }
 
-    /// The stretch of a side that lies over the part's face, which has these sides.
+    /// The interval of a side that lies over the part's face, which has these sides.
     fn span(&self, cuts: impl Iterator<Item = Cut>, outwards: DVec3, edge: usize) -> Option<Span> {
         let (from, along) = self.facet.edge(edge);
         within(cuts, outwards * self.standing.radius, (from, along))
     }
 
-    /// The same under a segment: where it passes over the side, if it does. The same end twice, since it is one point.
+    /// The same for a segment (the core of a capsule): where it crosses the side, if it does. Both ends are this one
+    /// point.
     fn span_of_slender(&self, outwards: DVec3, edge: usize) -> Option<Span> {
         let (standing, facet) = (self.standing, self.facet);
         let (from, along) = facet.edge(edge);
@@ -426,7 +431,7 @@ impl Prism<'_> {
     }
 }
 
-/// The stretch of a line that is on the inner side of all cuts, once these are shifted.
+/// The interval of a line that is on the inner side of all cuts, once these are shifted.
 ///
 /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
 #[inline]

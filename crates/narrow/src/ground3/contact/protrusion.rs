@@ -1,22 +1,21 @@
-//! What bends that give no normal of their own may hide: how far ground may stand up between the points that are told.
+//! What low bends, which give no normal of their own, may hide: how far ground may rise between the reported points.
 //!
 //! ```text
-//! a triangle that speaks by its own normal tells of what stands over it, and where ground ends or bends; of a ridge too low
-//!     for that, on which a face rests, the points that are told are beside it, and lower
-//! triangles with such a bend, and the normal that is told:
-//!     ground rises over the plane of that normal by no more than the sine of its slope against it times the way, which is the
-//!         tangent up to rounding where bends are as low as that: by no more than that times the part's diameter
-//!     the part is no nearer to a triangle than its lowest vertex is over its plane, nor than the triangle's highest corner is
-//!         below a face of the part
+//! points along a triangle's normal cover what is over it, and where the ground ends or bends; but where a face rests
+//!     on a ridge too low for that, the reported points are beside the ridge, and lower
+//! for triangles with such a bend, and a reported normal:
+//!     ground rises over the plane of that normal by no more than the sine of its slope times the distance (with bends
+//!         so low the tangent is the sine, up to rounding), and so by no more than that sine times the part's diameter
+//!     the separation is no less than the height of the part's lowest vertex over the triangle's plane, nor than the
+//!         distance of the triangle's highest corner below a face of the part
 //! ```
-//! The lesser of both goes into the error. On a plane it is nothing, on one that was turned as a whole, so that its
-//! corners are rounded, some 1e-8 of a body, and never more than the tolerance for normals makes of it. What lies
-//! further off along the same normal is other ground, as a stair beside the one that a crate stands on.
+//! The lesser of the two goes into the error. It is zero on a plane, some 1e-8 of a body on a plane that was rotated as
+//! a whole, so that its corners are rounded, and never more than what the tolerance for normals amounts to. Ground
+//! further off along the same normal is other ground, like a stair beside the one that a crate stands on.
 //!
-//! Many low bends in a row may add up to more than that tolerance under one body. So what is told as the least of all
-//! is held against these bounds whatever their normals; where they leave open as much as the slack, ground is gone
-//! through once more, and what was overlooked is told (see `overlooked`). So it is, too, where there are more levels
-//! than are kept.
+//! Many low bends in a row may add up to more than that tolerance under one body. So the least separation of all is
+//! compared with these bounds whatever their normals. Where they leave open as much as the slack, or where there were
+//! more levels than are kept, the ground is searched again, and what was overlooked is reported (see `overlooked`).
 
 use super::Known;
 use super::facet::is_same;
@@ -27,34 +26,34 @@ use asunder_geometry::Prominent;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::SAME_NORMAL;
 
-/// Most levels of one part that are kept.
+/// Most levels that are kept for a part.
 const MOST_LEVELS: usize = 16;
 
-/// Triangles of one normal.
+/// Triangles of one normal, about as near as each other.
 pub(super) struct Level {
     normal: DVec3,
-    /// Bounds on how near the nearest of them can be, and the furthest, in metres.
+    /// The least and the greatest lower bound on their separations, in metres.
     least: f64,
     most: f64,
-    /// No less than the sine of the angle between any of their normals and this one.
+    /// An upper bound on the sine of the angle between any of their normals and this one.
     slope: f64,
 }
 
-/// Bounds on how near triangles can be that have a bend too low to give a normal.
+/// Lower bounds on the separations of triangles that have a bend too low to give a normal.
 pub(super) struct Levels {
     levels: ArrayVec<Level, MOST_LEVELS>,
     /// There were more than are kept.
     pub(super) is_crowded: bool,
-    /// A bound on all ground that counts for what is told as the least of all.
+    /// A lower bound on all ground that matters for the least separation reported.
     pub(super) lowest: f64,
 }
 
-/// How much a level may differ from another of the same normal and be of the same ground, in metres.
+/// By how much bounds along the same normal may differ and count as the same ground, in metres.
 pub(super) fn window(radius: f64) -> f64 {
     4.0 * SAME_NORMAL * radius
 }
 
-/// No less than the sine of the angle between two unit vectors, without a root.
+/// An upper bound on the sine of the angle between two unit vectors, without a root.
 pub(super) fn sine(one: DVec3, other: DVec3) -> f64 {
     one.cross(other).abs().element_sum()
 }
@@ -67,13 +66,13 @@ impl Level {
 }
 
 impl Levels {
-    /// Not a constant: that would be copied, blanks and all.
+    /// Not a constant: that would be copied as a whole.
     #[inline(always)]
     pub(super) fn new() -> Self {
         Self { levels: ArrayVec::new_const(), is_crowded: false, lowest: f64::INFINITY }
     }
 
-    /// The least bound above `floor`, where that is no less than is enough. Nothing where more must be known.
+    /// The least bound above `floor`, if it is no less than `enough`. `None` where the ground must be searched again.
     pub(super) fn least_above(&self, floor: f64, enough: f64) -> Option<f64> {
         let mut least = f64::INFINITY;
         for level in self.levels.iter().filter(|level| level.most >= floor) {
@@ -97,7 +96,7 @@ impl Levels {
 }
 
 impl Known {
-    /// Takes note of how near a triangle can be, if it has a bend too low to give a normal that is not its own.
+    /// Notes how near a triangle can be, if it has a bend too low to give a normal of its own.
     #[inline]
     pub(super) fn note_level(&mut self, prism: &Prism, prominent: Prominent) {
         if prominent.bends_low() {
@@ -106,8 +105,8 @@ impl Known {
         }
     }
 
-    /// By how much a separation that is told of a group may exceed the truth, of a part of this bounding radius. What
-    /// is as near as the least of all, which is given, exceeds nothing but the bound on that.
+    /// By how much the reported separation of a group may exceed the truth, for a part of this bounding radius. If it
+    /// is the least of all (`least`), only the bound on that counts.
     pub(super) fn hidden(&self, (group, least): (&Group, f64), radius: f64) -> f64 {
         let (normal, told) = (group.base.normal, group.told[0]);
         if told as f32 <= least as f32 {
@@ -124,15 +123,14 @@ impl Known {
     }
 }
 
-/// By how much what is told may exceed the truth, by a bound that is so much lower, and a normal that leans against the
-/// one that was told by an angle of that sine; nothing where it is of other ground.
+/// By how much a reported separation may exceed the truth, given a bound that is less by `lower`, and a normal at an
+/// angle of this sine to the reported one; zero where the bound belongs to other ground.
 pub(super) fn hidden_by(sine: f64, lower: f64, radius: f64) -> f64 {
     if lower > window(radius) { 0.0 } else { lower.min(2.0 * sine * radius).max(0.0) }
 }
 
 impl Prism<'_> {
-    /// A bound on how near the part can be to the triangle, by the triangle's plane and by the face that the part turns
-    /// to it.
+    /// A lower bound on the separation of part and triangle, by the triangle's plane and by the part's incident face.
     pub(super) fn least_of_low(&self, incident: Option<&Incident>) -> f64 {
         let standing = self.standing;
         let least = self.extent.low - standing.radius;

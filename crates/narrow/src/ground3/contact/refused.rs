@@ -1,15 +1,15 @@
-//! Triangles whose axis ground refused: they wait until all others have been heard.
+//! Triangles whose axis ground rejected: they wait until all others have been processed.
 //!
 //! ```text
-//! first those whose axis is nearly their own normal, then the others: told by their own normals, but for those that are freed
-//!     by a normal that was heard before all of them, by the part's lowest vertex
-//!     those not nearly their own also by any that is heard by then and far from it; those that a gap parts from the part
-//!     only if they would be told as deeper than all else
+//! first those whose axis is nearly their normal, then the others: points along their normals, unless they are freed
+//!     any may be freed by a normal that was found before all of them, as the part's lowest vertex shows
+//!     the others also by any normal found by then that is far from theirs, as that vertex, an axis of a cuboid or the
+//!         part's incident face shows; the latter two, across a gap, only if that would be the deepest of all
 //! ```
-//! A normal frees a triangle if a move along it, by how deep the part was found along it, leaves the triangle, too. Of
-//! a crate that lies over the edge of a step, a millimetre deep in the tread and half a metre beyond the riser, the
-//! riser is freed by the tread. Between normals that are nearly the same it makes no such difference, and there the
-//! second rule would only give what trembles one manifold more in every other frame.
+//! A normal *frees* a triangle if moving the part along it, by the depth found along it, separates the part from the
+//! triangle, too. Take a crate over the edge of a step, a millimetre deep in the tread and half a metre beyond the
+//! riser: the riser is freed by the tread. Between nearly equal normals it makes no such difference, and the second
+//! rule would only give a trembling body one manifold more in every other frame.
 
 use super::facet::{Facet, is_same};
 use super::groups::MOST_GROUPS;
@@ -23,27 +23,27 @@ use asunder_geometry::glam::DVec3;
 use core::cell::Cell;
 use core::f64::consts::FRAC_1_SQRT_2;
 
-/// A triangle whose axis was refused, and how the part stands over it.
+/// A triangle whose axis was rejected, and the part's extent over it.
 struct Refused {
     plane: Plane,
     refusal: Refusal,
 }
 
-/// What is known of an axis that was refused.
+/// What is known of a rejected axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refusal {
-    /// Whether it is nearly the triangle's own normal.
+    /// Whether it is nearly the triangle's normal.
     pub(super) is_own: bool,
-    /// Whether a gap parts the triangle from the part.
+    /// Whether there is a gap between the triangle and the part.
     pub(super) is_apart: bool,
-    /// How deep the part is in the triangle, and how far that may be off, where the axis is level to all of it.
+    /// The separation of part and triangle, and its error bound, where all of the triangle is level in the axis.
     pub(super) told: Option<[f64; 2]>,
 }
 
-/// Most triangles that wait until all others have been seen: by their numbers, and seen anew then, which takes less
-/// than what was asked before. Those beyond are told at once, and nothing frees them: with 32 and a margin of 0.3 m,
-/// one in forty bodies on stairs of many pieces, a millimetre deep at most, was told to be more than 5 cm deep in one
-/// of them.
+/// Most triangles that wait until all others have been processed. They are kept by number and set up again then, which
+/// costs less than the tests before. Further ones are added at once, and nothing frees them: with 32 and a margin of
+/// 0.3 m, one in forty bodies on stairs of many pieces, a millimetre deep at most, was reported to be more than 5 cm
+/// deep in one of them.
 const MOST_REFUSED: usize = 256;
 
 pub(super) type AllRefused = ArrayVec<Waiting, MOST_REFUSED>;
@@ -53,11 +53,11 @@ pub(super) type AllRefused = ArrayVec<Waiting, MOST_REFUSED>;
 pub(super) struct Waiting {
     number: u32,
     refusal: Refusal,
-    /// What is deeper was left out when its axis was refused, and is when it is told, in metres.
+    /// Deeper points were left out when its axis was rejected, and are when its points are added, in metres.
     floor: f64,
 }
 
-/// A normal, and the least separation that was found along it.
+/// A normal, and the least separation found along it.
 pub(super) type Heard = (DVec3, f64);
 
 impl Known {
@@ -67,10 +67,10 @@ impl Known {
 }
 
 impl Seen<'_> {
-    /// Keeps a triangle whose axis was refused until all others have been heard.
+    /// Keeps a triangle whose axis was rejected until all others have been processed.
     pub(super) fn refuse(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let (number, floor) = (prism.facet.number, known.groups.floor());
-        // What is deep of it was told by then, or another told of it: of what waits there is a gap alone.
+        // With a floor, its penetrating points were added before, or another triangle covers them: only its gap waits.
         let refusal = Refusal { is_apart: refusal.is_apart || floor > f64::NEG_INFINITY, ..refusal };
         let is_seen = || {
             prism.facet.has_own_plane() || Facet::seen(prism.ground, number, self.standing.center).is_some()
@@ -80,7 +80,7 @@ impl Seen<'_> {
         }
     }
 
-    /// Adds points of triangles whose axis was refused, by their own normals.
+    /// Adds points along the normals of triangles whose axis was rejected, unless they are freed.
     pub(super) fn add_refused(&self, known: &mut Known) {
         if known.refused.is_empty() {
             return;
@@ -94,8 +94,9 @@ impl Seen<'_> {
         let (by_now, deepest) = (known.heard(), known.groups.least().min(0.0));
         self.add_those(false, known, |refused, known| {
             let is_far = |by: &&Heard| refused.plane.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
-            // What a gap parts from the part is clear of it before any move, which shows nothing: the floor beside a
-            // wall was told by one corner. Only what would be told as deeper than all else is left out.
+            // A triangle across a gap is clear of the part before any move, so that it is after one shows nothing: the
+            // floor beside a wall got a contact at one vertex only. Just triangles that would be reported deeper than
+            // all else are left out.
             let may_be_freed = !refused.refusal.is_apart || self.is_deeper(refused, deepest);
             let mut far = by_now.iter().filter(is_far);
             is_freed(refused)
@@ -105,7 +106,7 @@ impl Seen<'_> {
         });
     }
 
-    /// Adds points of those whose axis is nearly their own normal, or of the others, but for what is freed.
+    /// Adds points of the triangles whose axis is nearly their normal, or of the others, except for freed ones.
     fn add_those(&self, is_own: bool, known: &mut Known, is_freed: impl Fn(&Refused, &mut Known) -> bool) {
         for place in 0..known.refused.len() {
             let Waiting { number, refusal, floor } = known.refused[place];
@@ -122,7 +123,7 @@ impl Seen<'_> {
         }
     }
 
-    /// Whether the part is deeper in a triangle, along its own normal, than was found along another.
+    /// Whether the part is deeper in a triangle, along the triangle's normal, than was found along another.
     fn is_deeper(&self, refused: &Refused, least: f64) -> bool {
         refused.plane.extent.low - self.standing.radius < least - self.standing.slack
     }
@@ -136,8 +137,8 @@ impl Seen<'_> {
             && self.is_left_below(facet, by)
     }
 
-    /// Whether a move along a normal, by how deep the part was found along it, leaves all of a triangle below the
-    /// part's lowest vertex.
+    /// Whether a move along a normal, by the depth found along it, leaves all of a triangle below the part's lowest
+    /// vertex.
     pub(super) fn is_left_below(&self, facet: &Facet, (normal, least): Heard) -> bool {
         let standing = self.standing;
         let [a, b, c] = facet.corners;
@@ -147,8 +148,8 @@ impl Seen<'_> {
         low - top >= least - standing.slack
     }
 
-    /// The same where that vertex is beside all ground: as any axis shows of a cuboid, of others the face that they
-    /// turn to the normal.
+    /// The same where that vertex is beside all ground: shown for a cuboid by any axis, for other parts by their
+    /// incident face.
     fn is_freed_by_face(&self, refused: &Refused, (normal, least): Heard, known: &mut Known) -> bool {
         let standing = self.standing;
         let facet = &refused.plane.facet;
@@ -166,9 +167,9 @@ impl Seen<'_> {
         nearest - over >= -outwards.dot(normal) * least - standing.slack
     }
 
-    /// Adds points by a triangle's own normal, in place of those along what was refused. Of one that a gap parts from
-    /// the part, none is deep: the part is beside it, and not in it. But where the part is deep in others of its plane
-    /// that hang together with it, it leaves all of them at once.
+    /// Adds points along a triangle's normal, in place of those along the rejected axis. Across a gap, no penetrating
+    /// ones: the part is beside the triangle, not in it. But where the part penetrates connected triangles of the same
+    /// plane, it leaves all of them at once.
     fn add_in_place(&self, prism: &Prism, refusal: Refusal, known: &mut Known) {
         let is_left_out = Cell::new(false);
         let is_in_others = || {
@@ -184,8 +185,8 @@ impl Seen<'_> {
     }
 }
 
-/// Whether a normal counts at all for a triangle: for one that the part overlaps, if something touches along it. Else
-/// it would depend on the margin what is deep.
+/// Whether a normal may free a triangle at all. For one that the part overlaps, something must touch along the normal:
+/// else what is reported as penetrating would depend on the margin.
 fn may_free(refused: &Refused, (_, least): Heard) -> bool {
     refused.refusal.is_apart || least <= touching()
 }

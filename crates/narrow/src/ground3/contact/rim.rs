@@ -1,13 +1,13 @@
-//! How deep a part is over the sides of a triangle, whichever of its faces is over them.
+//! The depth of a part over the sides of a triangle, by whichever of its faces are over them.
 //!
-//! Over a convex polygon, what of a convex part is furthest behind the polygon's plane is its lowest vertex, or it is
-//! over a side. There it is where two features meet as seen along the normal, with a direction square to both:
+//! Over a convex polygon, the point of a convex part that is furthest behind the polygon's plane is its lowest vertex,
+//! or lies over a side. There two features cross as seen along the normal, and a direction is square to both:
 //! ```text
 //! an edge of the part over the side; a corner of the ground under a face
-//! of a part with rounds also: a vertex over the side; a corner under an edge, or under a vertex
+//! for a rounded part also: a vertex over the side; a corner under an edge, or under a vertex
 //! ```
-//! Whatever of the part is over a side bounds how deep it is there. So each pair of features is asked for its own sake,
-//! and the deepest of all is on the surface.
+//! Any point of the part over a side bounds the depth there. So each pair of features is computed on its own, and the
+//! deepest of all is on the surface.
 
 use super::facet::edge_number;
 use super::groups::{Base, Groups, Pin};
@@ -15,25 +15,26 @@ use super::prism::{Prism, STEEP};
 use crate::feature::Feature;
 use asunder_geometry::glam::DVec3;
 
-/// Sine of the angle between two edges below which they meet at no certain place: what is deepest is at an end of one.
+/// Sine of the angle between two edges below which their crossing is ill-defined: the deepest point is at an end of
+/// one.
 const LEAST_SINE: f64 = 1e-9;
 
-/// By what share of an edge's length a point may be beyond its end: more than rounding, of an edge that ends there.
+/// Share of an edge's length by which a point may be beyond its end: more than rounding, for edges that end there.
 const SPARE: f64 = 1e-12;
 
-/// How far another point that is as deep lies from the deepest at least, as a share of the part's radius: nearer ones
-/// are of features that meet there.
+/// Least distance between the deepest point and another that is as deep, as a share of the part's radius: nearer ones
+/// belong to features that meet there.
 const APART: f64 = 1e-3;
 
-/// A corner, or an edge: where it starts, and the way along it, which is zero for a corner.
+/// A corner or an edge: its start, and the vector to its end, which is zero for a corner.
 #[derive(Clone, Copy)]
 struct Line {
     from: DVec3,
     along: DVec3,
 }
 
-/// Where a round of the part is lowest over a feature of the ground: the shares of their ways, and the direction out of
-/// the part, which is of unit length.
+/// Where a rounded feature of the part is lowest over a feature of the ground: the fractions of their lengths, and the
+/// unit direction out of the part.
 struct Lowest {
     on_part: f64,
     on_ground: f64,
@@ -41,8 +42,8 @@ struct Lowest {
 }
 
 impl Prism<'_> {
-    /// Adds the deepest points of the part over those sides of the triangle where its flat patch ends, as far as they
-    /// are wanted and deeper than what was found along its normal.
+    /// Adds the deepest points of the part over those sides of the triangle where its flat patch ends, if they are
+    /// within reach and deeper than what was found along its normal.
     pub(super) fn add_deepest_over_rim(&self, groups: &mut Groups) {
         let (ground, number, base) = (self.ground, self.facet.number, self.base());
         for edge in 0..3 {
@@ -53,7 +54,8 @@ impl Prism<'_> {
         }
     }
 
-    /// The same over one side, whatever is behind it: the deepest point, and what is as deep well apart from it.
+    /// The same over one side, whatever is behind it: the deepest point, and points as deep that are well apart from
+    /// it.
     pub(super) fn add_deepest_over(&self, edge: usize, base: &Base, groups: &mut Groups) {
         let slack = self.standing.slack;
         let reach = self.reach.min(groups.least_along(base.normal) - slack);
@@ -77,8 +79,8 @@ impl Prism<'_> {
         });
     }
 
-    /// Whether the part may be as deep over a side as is wanted: in the plane that is so deep, some of the side is on
-    /// the inner side of all faces that look down.
+    /// Whether the part may be that deep over a side: with the side moved to that depth, some of it is on the inner
+    /// side of all faces that face down.
     fn may_reach(&self, edge: usize, reach: f64) -> bool {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let (from, along) = self.facet.edge(edge);
@@ -141,7 +143,7 @@ impl Prism<'_> {
         }
     }
 
-    /// What of a face is over a corner of the ground.
+    /// The point of a face over a corner of the ground.
     fn lowest_face(&self, face: usize, (corner, of_ground): (DVec3, Feature)) -> Option<Pin> {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let outwards = solid.normal(face);
@@ -167,7 +169,7 @@ impl Prism<'_> {
         })
     }
 
-    /// What of the round of an edge or a vertex, or of the edge itself, is lowest over a side or a corner.
+    /// The lowest point of an edge or vertex, rounded or not, over a side or a corner.
     fn lowest_round(&self, (own, of_body): (Line, Feature), (at, of_ground): (Line, Feature)) -> Option<Pin> {
         let normal = self.facet.normal;
         let Lowest { on_part, on_ground, out } = self.lowest_of(own, at)?;
@@ -188,8 +190,8 @@ impl Prism<'_> {
         })
     }
 
-    /// Where they meet, if they do: the way from the core to the ground, once that is moved along the normal, is as
-    /// long as the radius, and square to both features.
+    /// Where they touch, if they do: with the ground's feature moved along the normal, the vector from the core to it
+    /// is as long as the radius, and square to both features.
     fn lowest_of(&self, own: Line, at: Line) -> Option<Lowest> {
         let (normal, radius) = (self.facet.normal, self.standing.radius);
         let between = at.from - own.from;
@@ -203,7 +205,7 @@ impl Prism<'_> {
             let out = if across.dot(normal) > 0.0 { -across } else { across };
             let move_up = (radius - out.dot(between)) / out.dot(normal);
             let rest = between + normal * move_up - out * radius;
-            // Square to one of the ways, and to the direction out.
+            // Square to one of the edges, and to the direction out.
             let (by_own, by_other) = (out.cross(own.along), out.cross(at.along));
             let on_part = rest.dot(by_other) / own.along.dot(by_other);
             let on_ground = -rest.dot(by_own) / at.along.dot(by_own);

@@ -1,19 +1,19 @@
-//! A sphere on ground, at once: what matters of it is its centre.
+//! The fast path for a sphere on ground: only its centre matters.
 //!
 //! ```text
 //! for each triangle near it:
-//!   a plane parts them by more than is wanted: done                                      (Round::may_reach)
-//!   its plane is too far, or its nearest point: done
-//!   neither is in front for certain, and no side of it may give that direction: no point
-//!   else, and only then: which side the centre is on, which takes a walk around the corner       (Facet::is_before)
-//!   the point, where ground lets the direction through                                           (Nearest::add_point)
-//! what ground refused is nearer than all points: the general way                                (unsaid)
+//!   a plane separates them by more than the reach: done                                           (Round::may_reach)
+//!   its plane, or its nearest point, is too far: done
+//!   the direction is not the normal, nor that of a feature prominent from either side: no point   (may_add)
+//!   only now: which side the centre is on, which takes a walk around the corner                   (Facet::is_before)
+//!   the point, if ground accepts the direction                                                    (Nearest::add_point)
+//! a rejected closest point is nearer than all contact points: the general path                    (unsaid)
 //! ```
-//! Answers are those of the general way to the last bit, but for needles whose normals are worth little. Where rounding
-//! leaves it open whether the two share a point, or the centre is on the triangle, that way is asked instead: it knows
-//! how to go on.
+//! Answers are those of the general path to the last bit, except for needles whose normals are mostly rounding. Where
+//! rounding leaves open whether the two share a point, or the centre is on the triangle, the general path runs instead,
+//! which can decide it.
 //!
-//! What it buys: no core, no solid, no vertices eight by eight, and for most triangles no side.
+//! It saves the core, the solid and the transformed vertices, and for most triangles the decision of the side.
 
 use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same, widened};
@@ -28,8 +28,8 @@ use asunder_geometry::tolerance::FACE_PREFERENCE;
 use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
 use core::ops::ControlFlow;
 
-/// More than what products lose here, as a share of lengths. A needle's normal may be off by more; the plane asked
-/// about is not made of it, and what that passes over is apart, whatever the normal says.
+/// More than products lose to rounding here, as a share of lengths. A needle's normal may be off by more, but the
+/// separating plane is not made from it: a triangle that is skipped is apart, whatever its normal.
 const LOST: f64 = 1e-6;
 
 /// A sphere, in the ground's axes.
@@ -37,28 +37,28 @@ const LOST: f64 = 1e-6;
 pub(super) struct Round {
     center: DVec3,
     radius: f64,
-    /// Lengths that enter a coordinate, in metres.
+    /// The summed lengths that enter a coordinate, in metres.
     lengths: f64,
     /// The widest gap in which a point is wanted, in metres.
     reach: f64,
 }
 
 impl Round {
-    /// Of a sphere, all that counts of how it is placed.
+    /// What matters of a placed sphere.
     #[inline]
     pub(super) fn new(on: &OnGround, part: &Part, radius: f64, reach: f64) -> Self {
         let (center, summed) = on.origin_of(part);
         Self { center, radius, lengths: summed + radius, reach }
     }
 
-    /// The box around what is near it, rounded outwards.
+    /// Its box grown by the reach, rounded outwards.
     #[inline]
     fn bounds(&self) -> Aabb3 {
         grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
-    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; nothing where the general way has to
-    /// be gone.
+    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; `None` where the general path has to
+    /// run.
     pub(super) fn contact(
         &self,
         asking: &Asking,
@@ -81,13 +81,13 @@ impl Round {
         Some(asking.answer(part, &mut known, is_overlap_known, manifolds))
     }
 
-    /// Places that differ by no more are the same, in metres.
+    /// Positions that differ by no more count as the same, in metres.
     fn slack(&self) -> f64 {
         (2.0 * FACE_PREFERENCE * self.radius).max(doubt_of(self.lengths, self.center))
     }
 
-    /// Looks at the triangles near it, until the first overlap if only yes or no is wanted. Whether that settles
-    /// everything; else it is to be asked in the general way, from the start.
+    /// Processes the triangles near it, up to the first overlap if only yes or no is wanted. Returns whether everything
+    /// is settled; if not, the general path has to run, from the start.
     fn look(&self, ground: Ground, is_yes_enough: bool, known: &mut Known) -> bool {
         let mut is_settled = true;
         let _ = ground.read_near_if(
@@ -105,14 +105,13 @@ impl Round {
         is_settled
     }
 
-    /// Whether a triangle may be within reach: not where a plane has it and the ball on either side, further apart than
-    /// that.
+    /// Whether a triangle may be within reach: not if a plane separates it from the ball by more than that.
     ///
-    /// The plane is square to the way from the triangle's nearest point to the centre, or from where rounding has that;
-    /// corners decide, whatever it is worth, and no root is taken. Six triangles of ten near a ball on hills end here:
-    /// frames of balls that roll take 0.84 of the time. Tried: eight at a time in f32, of which LLVM makes more moves
-    /// than products, for SSE2; one by one without a branch: frames take 1.05 to 1.7, and 1.2 times as long (AMD EPYC,
-    /// Zen 5, 2026-11-25).
+    /// The plane is square to the line from the triangle's nearest point, as rounding has it, to the centre. All
+    /// corners are tested against it, so the answer is right however good that point is, and no root is taken. Six
+    /// triangles of ten near a ball on hills end here: frames of balls that roll take 0.84 of the time. Tried: eight at
+    /// a time in f32, for which LLVM emits more moves than products on SSE2; one by one without a branch: frames take
+    /// 1.05 to 1.7, and 1.2 times as long (AMD EPYC, Zen 5, 2026-11-25).
     #[inline]
     fn may_reach(&self, corners: &[Vec3; 3]) -> bool {
         let corners = widened(*corners);
@@ -120,12 +119,12 @@ impl Round {
         // More than rounding can hide.
         let lever = (self.center - corners[0]).abs().element_sum() + self.radius;
         let beyond = self.radius + self.reach + doubt_of(self.lengths, corners[0]) + LOST * lever;
-        // What is not a number may reach.
+        // NaN may reach.
         let is_beyond = least > 0.0 && least * least > beyond * beyond * away.length_squared();
         !is_beyond
     }
 
-    /// Looks at one triangle; whether it is settled.
+    /// Processes one triangle; returns whether it is settled.
     fn look_at(&self, ground: Ground, near: &NearTriangle, known: &mut Known) -> bool {
         let Some(mut facet) = Facet::front_of(near.number, near.corners) else { return true };
         let height = facet.height(self.center);
@@ -167,7 +166,7 @@ impl Round {
     }
 }
 
-/// Whether the triangle may give a point as seen from either side.
+/// Whether the triangle may give a point, seen from either side.
 fn may_add(nearest: &Nearest, facet: &Facet, prominent: Prominent) -> bool {
     let is_prominent = match nearest.feature {
         Furthest::Face => true,
@@ -187,7 +186,7 @@ mod tests {
         let mut number = || 2.0 * random.rand_float() - 1.0;
         let (mut near, mut parted, mut far) = (0, 0, 0);
         for round in 0..200_000 {
-            // Of all sizes, from needles to even ones, near home and not.
+            // Triangles of all sizes, from needles to regular ones, near the origin and far from it.
             let size = (20.0 * number()).exp2();
             let thin = [1.0, 1e-3, 1e-6][round % 3];
             let away = DVec3::new(number(), number(), number()) * [0.0, 1e3 * size][round % 2];
@@ -200,7 +199,7 @@ mod tests {
                 (Furthest::Face, _) => facet.height(center).abs(),
                 (_, at) => (center - at).length(),
             };
-            // Balls of which the triangle is just within reach, or just not.
+            // Balls that have the triangle just within reach, or just not.
             for share in [1.0 + 1e-9, 1.0, 1.0 - 1e-9, 0.999] {
                 let (radius, reach) = (0.9 * distance * share, 0.1 * distance * share);
                 let round = Round { center, radius, lengths: radius, reach };

@@ -1,9 +1,9 @@
-//! The sides of a triangle: which points lie over it, and how far inside.
+//! The sides of a triangle: which points lie over the triangle, and how far inside.
 
 use super::facet::Facet;
 use asunder_geometry::glam::DVec3;
 
-/// A side of a triangle, as it is asked which points lie over the triangle.
+/// A side of a triangle, prepared for tests of which points lie over the triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
     from: DVec3,
@@ -11,7 +11,7 @@ pub(super) struct Rim {
     inwards: DVec3,
     /// No less than the side's length.
     length: f64,
-    /// How far inside a point must be, times that.
+    /// How far inside a point must be, times `length`.
     least: f64,
 }
 
@@ -22,13 +22,13 @@ impl Rim {
         self.inwards.dot(point - self.from) >= self.least
     }
 
-    /// The same of one that may be so many metres more beside it.
+    /// The same for a point that may be further outside, by `more` metres.
     #[inline]
     pub(super) fn holds_by(&self, point: DVec3, more: f64) -> bool {
         self.inwards.dot(point - self.from) >= self.least - more * self.length
     }
 
-    /// Whether it is on the other side, by however little.
+    /// Whether a point is on the other side, by however little.
     #[inline]
     pub(super) fn is_beyond(&self, point: DVec3) -> bool {
         self.inwards.dot(point - self.from) < 0.0
@@ -36,7 +36,7 @@ impl Rim {
 }
 
 impl Facet {
-    /// The least distance of a point's foot from the sides of those half-edges that count, positive inside, in metres.
+    /// The least distance of a point's foot from the sides that count, by their half-edges, positive inside, in metres.
     /// Infinite where none counts.
     #[inline]
     pub(super) fn inside(&self, point: DVec3, counts: impl Fn(usize) -> bool) -> f64 {
@@ -51,13 +51,13 @@ impl Facet {
         least
     }
 
-    /// Whether a point's foot is in the triangle, or beside it by no more than `slack` metres.
+    /// Whether a point's foot is in the triangle, or outside by no more than `slack` metres.
     #[inline]
     pub(super) fn is_over(&self, point: DVec3, slack: f64) -> bool {
         (0..3).all(|edge| self.rim(edge, slack).holds(point))
     }
 
-    /// One of its sides, for points that may be beside it by no more than `slack` metres.
+    /// One of its sides, for points that may be outside by no more than `slack` metres.
     #[inline]
     pub(super) fn rim(&self, edge: usize, slack: f64) -> Rim {
         let (from, along) = self.edge(edge);

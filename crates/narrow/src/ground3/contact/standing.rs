@@ -1,4 +1,4 @@
-//! A convex part as it stands over ground: its vertices in the ground's axes.
+//! A convex part over ground: its vertices in the ground's axes.
 
 use super::axes::Axes;
 use super::ball::nearest_to;
@@ -12,16 +12,16 @@ use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, MAX_HULL_VERTICES};
 use asunder_geometry::{Basis3, Core3, Pose3, Shape3};
 
-/// Where a part is and how it is turned, in the ground's axes.
+/// The position and rotation of a part, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) axes: Basis3,
     pub(super) origin: DVec3,
-    /// How long the vectors are that this is a sum of, in metres.
+    /// The summed lengths of the vectors that make up `origin`, in metres.
     pub(super) summed: f64,
 }
 
-/// Vertices eight by eight: large, and filled where they stay.
+/// Vertices in eights: large, and filled in place.
 pub(super) type Octets = ArrayVec<[[f64; 8]; 3], { MAX_HULL_VERTICES / 8 }>;
 
 /// A part, with its vertices; a half-space has none.
@@ -37,22 +37,22 @@ pub(super) struct Standing<'s> {
     half: DVec3,
     /// The box around the core in the ground's axes.
     pub(super) turned: [DVec3; 2],
-    /// The vertices, eight by eight; what fills up the last eight is the first.
+    /// The vertices in eights; the last eight are padded with their first.
     octets: &'s Octets,
     pub(super) center: DVec3,
     pub(super) radius: f64,
     pub(super) outer_radius: f64,
     /// How far the faces of a hull are from planes, in metres.
     pub(super) planarity: f64,
-    /// Places that differ by no more are the same, in metres.
+    /// Positions that differ by no more count as the same, in metres.
     pub(super) slack: f64,
-    /// Points no further above the deepest are as deep as any where four of more are chosen, in metres.
+    /// Points no further than this above the deepest count as deep as it where four of more are chosen, in metres.
     pub(super) even: f64,
-    /// Lengths that enter a coordinate, in metres.
+    /// The summed lengths that enter a coordinate, in metres.
     pub(super) lengths: f64,
 }
 
-/// How far a part reaches down and up.
+/// How far a part reaches down and up, over a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     pub(super) low: f64,
@@ -117,7 +117,7 @@ impl<'s> Standing<'s> {
         let (own, turned) = (corners_of(&own), corners_of(&turned));
         let around = [Vec3::from_array(own[0]).as_dvec3(), Vec3::from_array(own[1]).as_dvec3()];
         let center = part.shape.center().as_dvec3();
-        // A half-space has none, nor vertices that it would matter to.
+        // A half-space has none, and no vertices for which it would matter.
         let outer_radius = match solid.vertices.len() {
             0 => 0.0,
             _ => f64::from(part.shape.outer_radius()),
@@ -149,15 +149,15 @@ impl<'s> Standing<'s> {
         standing
     }
 
-    /// What a coordinate, and a product with a unit vector, may be off by at most, beside a point of ground.
+    /// Error bound of a coordinate, or of a product with a unit vector, near a point of ground.
     #[inline]
     pub(super) fn doubt(&self, ground: DVec3) -> f64 {
         doubt_of(self.lengths, ground)
     }
 
-    /// Whether an axis that costs little shows that a triangle is further away than so many metres: one of a cuboid's
-    /// or across it, one of the box around another part, or the one from the triangle's nearest point to the part's
-    /// centre.
+    /// Whether a cheap axis shows that a triangle is further away than `beyond` metres: one of a cuboid's thirteen; for
+    /// other parts one of the box around them, or across its edges; or the one from the triangle's nearest point to the
+    /// part's centre.
     pub(super) fn is_apart(&self, (facet, axes): (&Facet, Option<&Axes>), beyond: f64) -> bool {
         let beyond_core = beyond + self.radius;
         if let Some(axes) = axes {
@@ -178,8 +178,8 @@ impl<'s> Standing<'s> {
                 return true;
             }
         }
-        // Tried: two more steps, each from the vertex furthest against the last direction. No call of the kernels less
-        // for cuboids or hulls of 32, and 5 % more instructions per frame of hulls (2026-11-22).
+        // Tried: two more steps, each from the vertex furthest against the last direction. They saved no kernel call
+        // for cuboids or hulls of 32, and cost 5 % more instructions per frame of hulls (2026-11-22).
         self.is_apart_towards(self.center, facet, beyond)
     }
 
@@ -192,13 +192,14 @@ impl<'s> Standing<'s> {
         low > beyond + self.radius
     }
 
-    /// No less than how far the core reaches from `middle` along a unit normal, by the box around it; rounding apart.
+    /// An upper bound on how far the core reaches from `middle` along a unit normal, by the box around it; rounding
+    /// apart.
     #[inline]
     pub(super) fn reach_along(&self, normal: DVec3) -> f64 {
         self.half.dot(self.place.axes.turn_back(normal).abs())
     }
 
-    /// Whether the box around the core holds a point that far inside, in metres.
+    /// Whether the box around the core contains a point, more than `inside` metres from its faces.
     pub(super) fn is_in_box(&self, point: DVec3, inside: f64) -> bool {
         let own = self.place.axes.turn_back(point - self.place.origin);
         let [low, high] = self.around;
@@ -226,8 +227,8 @@ impl<'s> Standing<'s> {
         low
     }
 
-    /// How high the vertices of the core are over a plane through `origin`; of equals, the first. Cost: linear in the
-    /// vertices, eight at a time.
+    /// The lowest and highest vertex of the core over a plane through `origin`; of equals, the first. Cost: linear in
+    /// the vertices, eight at a time.
     #[inline]
     pub(super) fn extent(&self, normal: DVec3, origin: DVec3) -> Extent {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -247,7 +248,8 @@ impl<'s> Standing<'s> {
     }
 }
 
-/// How high eight vertices are over a plane. In a call of its own: in what compares them, lanes were taken apart.
+/// The heights of eight vertices over a plane. In a function of its own: inlined where they are compared, it was
+/// scalarised.
 #[inline(never)]
 fn note_heights([x, y, z]: &[[f64; 8]; 3], [normal, origin]: [&DVec3; 2], heights: &mut [f64; 8]) {
     for i in 0..8 {
@@ -274,7 +276,7 @@ fn corners_of<T: Copy + PartialOrd>([low, high]: &[[[T; 8]; 3]; 2]) -> [[T; 3]; 
     [[least(&low[0]), least(&low[1]), least(&low[2])], [most(&high[0]), most(&high[1]), most(&high[2])]]
 }
 
-/// Of eight numbers the one that comes before all others.
+/// The one of eight numbers that comes before all others.
 #[inline(always)]
 fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
     let pick = |a: T, b: T| if is_before(a, b) { a } else { b };
@@ -282,11 +284,10 @@ fn fold<T: Copy>(of: &[T; 8], is_before: impl Fn(T, T) -> bool) -> T {
     pick(pick(four[0], four[2]), pick(four[1], four[3]))
 }
 
-/// The first place of a number among eight; what fills up the last eight is the first of them, and never comes before
-/// it.
+/// The first index of a number among eight; padding repeats the first of them, and never comes before it.
 #[inline(always)]
 fn first(of: &[f64; 8], number: f64) -> usize {
-    // In lanes of f64, as what is compared.
+    // In lanes of f64, like the numbers that are compared.
     let mut from_end = [0.0; 8];
     for i in 0..8 {
         from_end[i] = if of[i] == number { (8 - i) as f64 } else { 0.0 };
@@ -300,14 +301,14 @@ pub(in crate::ground3) fn span_of([a, b, c]: &[DVec3; 3]) -> DVec3 {
     a.abs().max(b.abs()).max(c.abs())
 }
 
-/// What a coordinate that such lengths went into, and a product of it with a unit vector, may be off by at most, beside
-/// a point of ground.
+/// Error bound of a coordinate that such lengths went into, or of its product with a unit vector, near a point of
+/// ground.
 #[inline]
 pub(in crate::ground3) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
     IN_SPACE[1] * (f64::EPSILON / 2.0) * (lengths + ground.abs().element_sum())
 }
 
-/// Whether an axis across an edge of the triangle and one of a box shows that they are further apart than so many
+/// Whether a cross product of edges of the triangle and of a box shows that they are further apart than `beyond`
 /// metres; all in the box's axes.
 ///
 /// Akenine-Moeller, "Fast 3D triangle-box overlap testing" (2001), with a margin.

@@ -1,4 +1,4 @@
-//! The short ways against the general one: the same answers, on random patches of ground.
+//! The fast paths against the general one: the same answers, on random patches of ground.
 
 use super::facet::Furthest;
 use super::*;
@@ -9,7 +9,7 @@ use asunder_geometry::glam::{Quat, Vec2, Vec3};
 use asunder_geometry::{Cuboid, HeightField, Hull, Segment3, Sphere, TriMesh};
 
 impl Numbers {
-    /// Bumps of some height over cells of a metre, flat ground among them; solid from one side, or from both.
+    /// Bumps of some height over cells of a metre, flat ground among them; one-sided or two-sided.
     fn patch(&mut self) -> Shape3 {
         let height = [0.0, 0.05, 0.3, 1.5][self.below(4) as usize];
         let vertex = |i: u32, up: f64| Vec3::new((i % 5) as f32 - 2.0, up as f32, (i / 5) as f32 - 2.0);
@@ -74,7 +74,7 @@ fn short_ways_say_what_the_general_way_says() {
             }
             points += one.points.len();
         }
-        // Of spheres, to the last bit.
+        // For spheres, to the last bit.
         assert!(!matches!(body, Shape3::Sphere(_)) || by_short == by_plain, "{told}");
         touching += usize::from(short == Some(true));
         apart += usize::from(short.is_none());
@@ -82,8 +82,8 @@ fn short_ways_say_what_the_general_way_says() {
     assert!(touching > 1500 && apart > 1000 && points > 5000, "{touching} {apart} {points}");
 }
 
-/// A rod's end beside an edge, less than a picometre away: along the triangle's normal it is as much below the plane,
-/// so that a point is made, and what is told of it is that they are apart.
+/// A rod's end beside an edge, less than a picometre away: along the triangle's normal it is as far below the plane, so
+/// that a point is made, but the reported separation is a gap.
 #[test]
 fn what_is_a_hair_apart_is_beyond_a_margin_of_zero() {
     let ends = [[-0.19427104, 0.12651876, -0.54291815], [-0.24687144, 0.772727, 0.110613234]].map(Vec3::from);
@@ -105,7 +105,7 @@ fn what_is_a_hair_apart_is_beyond_a_margin_of_zero() {
     assert!(near.separation > 0.0 && near.separation <= 1e-12);
 }
 
-/// A hull as ground whose fronts look out of it.
+/// A hull as ground whose fronts face outwards.
 fn surface(hull: &Hull) -> TriMesh {
     let topology = hull.topology();
     let fans = (0..topology.face_count()).flat_map(|face| {
@@ -115,14 +115,14 @@ fn surface(hull: &Hull) -> TriMesh {
     TriMesh::new(hull.vertices().to_vec(), fans.collect::<Vec<_>>()).unwrap()
 }
 
-/// Of the triangle that is nearest to a point, whatever of it is: Baerentzen and Aanaes prove that the normals around
-/// that tell the side.
+/// Whichever feature of the nearest triangle is nearest to a point: Baerentzen and Aanaes prove that the normals around
+/// that feature give the side.
 #[test]
 fn a_point_is_in_front_of_the_nearest_triangle_of_a_hull_exactly_if_it_is_outside() {
     let mut numbers = Numbers::new(31);
     let (mut outside, mut by_plane_it_is_not, mut inside) = (0, 0, 0);
     for round in 0..300 {
-        // Needles and blades, at whose edges and corners planes tell little.
+        // Needles and blades, at whose edges and corners the planes say little about the side.
         let thin = DVec3::new(1.0, [1.0, 0.2, 0.05][round % 3], [1.0, 0.1, 0.3][round / 3 % 3]);
         let points: Vec<Vec3> =
             (0..4 + numbers.below(8)).map(|_| (numbers.vector() * thin).as_vec3()).collect();
@@ -166,8 +166,8 @@ fn a_point_is_in_front_of_the_nearest_triangle_of_a_hull_exactly_if_it_is_outsid
     );
 }
 
-/// Symptom: whether a world was free for a cube of 60 m on a height field took 44 ms. Cause: yes or no was read off
-/// its manifolds, which look at all triangles.
+/// Symptom: whether a world was free for a cube of 60 m on a height field took 44 ms. Cause: yes or no was read off its
+/// manifolds, which visit all triangles.
 #[test]
 fn yes_or_no_of_wide_ground_ends_with_the_first_yes() {
     let heights: Vec<f32> = (0..129 * 129).map(|i| ((i * 7919) % 13) as f32 * 0.01).collect();
@@ -179,7 +179,7 @@ fn yes_or_no_of_wide_ground_ends_with_the_first_yes() {
         let (manifolds, all) = steps_of(|| pair.manifolds(0.0));
         let (is_yes, few) = steps_of(|| pair.overlaps_front());
         assert!(is_yes && !manifolds.is_empty());
-        // A triangle is a step at least: there are two in each of 3,600 cells.
+        // A triangle takes one step at least: there are two in each of 3,600 cells.
         assert!(all > 7000 && few < 100, "{few} steps, and {all} for manifolds");
     }
 }

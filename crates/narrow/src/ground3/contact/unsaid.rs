@@ -1,19 +1,20 @@
-//! Triangles near the part, across a gap, that gave no point because ground refused their direction.
+//! Triangles across a gap that gave no contact point because ground rejected their direction.
 //!
-//! What is nearest of all ground lies in its own Voronoi region, and ground lets it through. Not so
+//! The nearest point of all ground is in the Voronoi region of its own feature, and its direction is accepted. The
+//! exceptions:
 //!
-//! - where that direction is the triangle's own normal up to the tolerance, and along the normal all of the part's face
-//!   is cut away, or the nearest of it: the part's nearest point stands a hair outside the triangle; or the part is
-//!   rounded, and what is nearest is the round of an edge that leads over the triangle from side to side;
-//! - where a face of the part that is all but as good was preferred to it, and ground refuses that one;
-//! - of two-sided ground, where the part reaches around a rim or a fold: its centre is on one side, and what is nearest
-//!   on the other, from where the triangle is not looked at, or taken for deep; and at corners so crumpled that they
-//!   have no sides.
+//! - The direction is the triangle's normal up to the tolerance, but all of the part's incident face, or its nearest
+//!   point, is clipped away along the normal: the part's nearest point is a hair outside the triangle; or the part is
+//!   rounded, and nearest with a rounded edge that crosses the triangle from side to side.
+//! - A face of the part that is nearly as good was preferred, and ground rejects its normal.
+//! - The part reaches around a rim or a fold of two-sided ground: its centre is on one side and its nearest point on
+//!   the other, from which the triangle is not tested, or is taken for penetrated; or a corner is so crumpled that it
+//!   has no sides.
 //!
-//! Then nothing was told of a part within the margin, 58 times in 2.8 M random poses beside rims, folds and fans of
-//! triangles, half of them capsules; or, of rounded boxes in a groove, by millimetres too much. So the kernels' own
-//! answers are kept, one a direction, and told at last: along a triangle's own normal where nothing there is as near,
-//! along others where nothing at all is.
+//! Then nothing was reported for a part within the margin, 58 times in 2.8 M random poses beside rims, folds and fans
+//! of triangles, half of them capsules; or, for rounded boxes in a groove, a separation that was millimetres too large.
+//! So the kernels' answers are kept, one per direction, and reported at the end: along a triangle's normal where
+//! nothing along that is as near, along other directions where nothing at all is.
 
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Pin};
@@ -23,29 +24,28 @@ use arrayvec::ArrayVec;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::DVec3;
 
-/// What the kernels, or a closed form, say of a triangle of which no point was made.
+/// The closest points, by the kernels or a closed form, for a triangle that gave no contact point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unsaid {
     pub(super) number: u32,
-    /// In metres, and by how much it may be off; below zero where they overlap.
+    /// In metres, below zero in overlap; and its error bound.
     pub(super) separation: f64,
     pub(super) doubt: f64,
-    /// The nearest points, on the part and on the ground.
+    /// The closest points, on the part and on the ground.
     pub(super) ends: [DVec3; 2],
-    /// Unit direction from the ground to the part: the triangle's own normal where it is the same, and whether it is.
+    /// Unit direction from the ground to the part: the triangle's normal where it is the same; and whether it is.
     pub(super) normal: DVec3,
     pub(super) is_own: bool,
-    /// Whether ground means to be touched along it: one-sided ground has no backs, and no more of its rims than it
-    /// gives.
+    /// Whether ground may be touched along it: one-sided ground has no back, and its rims give only some directions.
     pub(super) is_meant: bool,
 }
 
-/// One a direction, the nearest first; of many those.
+/// One per direction, the nearest first; of too many, the nearest stay.
 pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
 
 impl Unsaid {
-    /// Of a triangle, along a unit direction from it to the part: how far they are apart and by how much that may be
-    /// off, and their nearest points.
+    /// For a triangle and a unit direction from it to the part: their separation and its error bound, and their closest
+    /// points.
     pub(super) fn along(
         (ground, facet): (Ground, &Facet),
         towards: DVec3,
@@ -54,9 +54,9 @@ impl Unsaid {
     ) -> Self {
         let is_own = is_same(facet.normal, towards);
         let normal = if is_own { facet.normal } else { towards };
-        // What was refused may be a face of the part that is all but as good as this. To a needle many directions are
-        // level: with none but its own, bodies beside the rim of a strip of needles were told to be further away than
-        // they are.
+        // What was rejected may be a face of the part that is nearly as good as this. A needle is level in many
+        // directions: when only its normal was accepted, bodies beside the rim of a strip of needles were reported
+        // further away than they are.
         let is_given = || match facet.furthest(towards) {
             Furthest::Face => {
                 facet.normal.dot(towards) > 0.0 || facet.may_give_across(ground, towards, |_| true)
@@ -92,14 +92,15 @@ impl Known {
         let _ = all.try_insert(place, unsaid);
     }
 
-    /// Whether something is nearer than all that was told of a part that overlaps no triangle: by more than `slack`
-    /// metres.
+    /// Whether something is nearer than all contact points, by more than `slack` metres, for a part that overlaps no
+    /// triangle.
     pub(super) fn is_unsaid(&self, slack: f64) -> bool {
         let least = self.groups.least() - slack;
         !self.overlapping && self.unsaid.first().is_some_and(|nearest| nearest.separation < least)
     }
 
-    /// Tells how near the nearest of it is, where that is the same place up to the slack: the points stay.
+    /// Records the least separation kept here, where it is that of the nearest contact point up to the slack: the
+    /// points stay.
     pub(super) fn tell_unsaid(&mut self, slack: f64) {
         let least = self.groups.least();
         if let Some(nearest) = self.unsaid.first()
@@ -112,7 +113,7 @@ impl Known {
 }
 
 impl Seen<'_> {
-    /// Tells what was left unsaid. Cost: some kernels for a part that is near two-sided ground from behind, and touches
+    /// Reports what was kept. Cost: some kernel calls for a part that is near two-sided ground from behind, and touches
     /// nothing.
     pub(super) fn say(&self, known: &mut Known) {
         if !known.overlapping {
@@ -124,7 +125,7 @@ impl Seen<'_> {
         let slack = self.standing.slack;
         let least = known.groups.least();
         known.tell_unsaid(slack);
-        // By their places: taken out, the list would be copied, blanks and all.
+        // By index: taking the list out would copy all of it.
         for place in 0..known.unsaid.len() {
             let unsaid = known.unsaid[place];
             let along = known.groups.least_along(unsaid.normal);
@@ -147,8 +148,8 @@ impl Seen<'_> {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
         let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
-        // Named after a side of the triangle, wherever it is: what is held by a corner and a side is never moved along,
-        // and whoever was refused once may come nearer on the way.
+        // Gets the id of a side of the triangle, wherever that is: a contact between a vertex and a side is never moved
+        // along, and rejected ground might come nearer on the way.
         let away = |edge: usize| facet.inside(on_ground, |other| other == edge).abs();
         let edge = (1..3).fold(0, |best, edge| if away(edge) < away(best) { edge } else { best });
         let of_body = Feature::Vertex(standing.extent(normal, on_ground).lowest as u32);
@@ -157,7 +158,7 @@ impl Seen<'_> {
         known.groups.add(&Base::along(normal, ground.patch(number)), pin);
     }
 
-    /// Asks the kernels about triangles that were taken for deep and are not: the part is on the other side of them.
+    /// Calls the kernels for triangles that were taken for penetrated and are not: the part is on their other side.
     fn look_behind(&self, known: &mut Known) {
         let (ground, standing) = (self.asking.on.ground, self.standing);
         if ground.is_one_sided() || known.unclear.is_empty() {

@@ -1,24 +1,25 @@
-//! What is deep in ground: the same at any margin, and of a flat patch the whole.
+//! Penetrating contacts on ground: the same at any margin, and for a flat patch as a whole.
 //!
 //! ```text
-//! of a triangle that is near by the margin alone: gaps                                                (may_meet)
-//! of one behind whose plane the part is deep, what is deep is told as without a margin:
-//!     sides that count by the margin alone do not: its own normal tells what is deep, kernels the gaps  (closer)
-//!     it is explained, or freed, by what touches alone, and where it would be then        (outstanding, refused)
+//! a triangle that is near only because of the margin: gaps, no penetration                      (may_meet)
+//! a triangle behind whose plane the part is deep: its penetrating points are found as without a margin:
+//!     sides that are near only because of the margin do not count: the normal gives these, kernels the gaps   (closer)
+//!     only contacts that touch cover or free it, where they would without a margin              (outstanding, refused)
 //! at last, where the part is deep in a flat patch, and reaches further behind its plane than was found:
-//!     what is deeper over triangles of the patch that it does not meet, and over their sides in its rim   (rim)
-//!     where nothing is deep along other normals, over the rim of those that it meets, too
+//!     deeper points over triangles of the patch that it does not meet, and over their sides on its rim (rim)
+//!     where nothing is deep along other normals, also over the rim of triangles that it meets
 //! ```
-//! A body leaves a patch along its normal at once, or not at all: of a box that leans over the rim of a floor, what is
-//! lowest may lie under a triangle that it does not touch, or another face of it be deeper over the rim than the one
-//! that looks against the normal the most. Where it is deep along other normals, too, a triangle that it meets may have
-//! spoken through one of them, and says no more along its own.
+//! A body leaves a patch along its normal as a whole, or not at all. Where a box leans over the rim of a floor, its
+//! lowest point may lie under a triangle that it does not touch, or another face may be deeper over the rim than the
+//! incident face. Where it is deep along other normals, too, a triangle that it meets may have got its contact along
+//! one of them, and adds no more along its own.
 //!
-//! What was found already is not told again: of points that are as deep, names would be others with every step.
+//! Depths that were found are not added again: among points that are equally deep, the feature ids would change with
+//! every step.
 //!
-//! Cost: all near ground is read twice for each normal that something may be deeper along. A cuboid of 32 m, sunk in
+//! Cost: all near ground is read twice for each normal along which something may be deeper. A cuboid of 32 m, sunk in
 //! hills of 2,000 triangles, has 16 of these, and takes 24 ms; it took 40 while each triangle, whatever its normal, was
-//! held against all points of each (Intel Xeon, family 6 model 85, 2026-11-28).
+//! compared with all points of each (Intel Xeon, family 6 model 85, 2026-11-28).
 
 use super::ball::nearest_to;
 use super::facet::{front_of, is_same};
@@ -34,10 +35,10 @@ use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Aabb3, Ground, NearTriangle};
 use core::ops::ControlFlow;
 
-/// Most flat patches of one normal that are told as a whole.
+/// Most flat patches of one normal that are treated as a whole.
 const MOST_PATCHES: usize = 32;
 
-/// Points up to this far away are there without a margin, too: what rounds to nothing is a touch.
+/// Points up to this separation are found without a margin, too: a gap that rounds to zero is a touch.
 pub(super) fn touching() -> f64 {
     reach_of(0.0)
 }
@@ -55,7 +56,7 @@ impl Seen<'_> {
         prism.extent.low - self.standing.radius < self.deep_below(prism)
     }
 
-    /// Whether a triangle would be looked at without a margin.
+    /// Whether a triangle would be processed without a margin.
     #[inline]
     pub(super) fn may_meet(&self, prism: &Prism) -> bool {
         let ([a, b, c], [low, high]) = (prism.facet.corners, self.standing.turned);
@@ -69,8 +70,8 @@ impl Seen<'_> {
         prism.does_cross() || self.meeting.overlaps(prism.ground, prism.facet.number)
     }
 
-    /// Whether a triangle has a point in the ball around the part. Where it has none, and the part's centre is above
-    /// its plane, nothing of the part that is behind the plane lies over the triangle; else nothing of it is deep
+    /// Whether a triangle has a point in the ball around the part. If it has none, no part of the body behind the
+    /// triangle's plane lies over the triangle where the part's centre is above the plane; otherwise nothing is deep
     /// there.
     pub(super) fn is_in_ball(&self, prism: &Prism) -> bool {
         let Standing { center, outer_radius, .. } = *self.standing;
@@ -79,7 +80,7 @@ impl Seen<'_> {
         (nearest_to(prism.facet, foot).1 - center).length_squared() <= radius * radius
     }
 
-    /// Adds what is deeper than was found over the rest of a flat patch, where the part is deep in some of it.
+    /// Adds deeper points over the rest of a flat patch, where the part is deep in some of it.
     #[inline]
     pub(super) fn add_whole(&self, known: &mut Known) {
         if known.groups.iter().any(|group| self.may_be_deeper(group)) {
@@ -87,7 +88,7 @@ impl Seen<'_> {
         }
     }
 
-    /// Whether the part is deep along a normal, and reaches further behind a plane of that than was found.
+    /// Whether the part is deep along a normal, and reaches further behind a plane with that normal than was found.
     #[inline]
     fn may_be_deeper(&self, group: &Group) -> bool {
         let (slack, found) = (self.standing.slack, group.found());
@@ -101,7 +102,7 @@ impl Seen<'_> {
         let (mut whole, [mut low, mut high]) = (ArrayVec::<Heard, MOST_GROUPS>::new(), turned);
         for group in known.groups.iter().filter(|group| self.may_be_deeper(group)) {
             whole.push((group.base.normal, group.found()));
-            // Beside what it meets, the part may be behind the plane as a whole, over triangles beside its box.
+            // Where it meets no triangle, all of the part may be behind the plane, under triangles outside its box.
             let up = group.base.normal * -group.base.behind;
             (low, high) = (low.min(turned[0] + up), high.max(turned[1] + up));
         }
@@ -112,11 +113,11 @@ impl Seen<'_> {
         }
     }
 
-    /// The same along one normal, over what is near a box.
+    /// The same along one normal, over triangles near a box.
     fn add_rest_along(&self, bounds: &Aabb3, by: Heard, is_alone: bool, known: &mut Known) {
         let ground = self.asking.on.ground;
         let mut deep = known.groups.deep_along(ground, by.0);
-        // Of a corner it is known which triangles it belongs to, and not of which patch: that is looked up first.
+        // A corner's feature id says which triangles it belongs to, but not which patch: that is looked up first.
         let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
         if known.groups.has_corner_along(by.0) {
             let _ = ground.read_near(bounds, |near| {
@@ -127,7 +128,7 @@ impl Seen<'_> {
             });
         }
         let _ = ground.read_near(bounds, |near| {
-            // Most ground that something is sunk in has another normal.
+            // Most ground around a sunken part has another normal.
             if is_along(near, by.0) && (patches.contains(&near.patch) || deep.holds(ground, near.number)) {
                 self.add_of_whole(near, by, is_alone, known);
                 deep = known.groups.deep_along(ground, by.0);
@@ -136,15 +137,15 @@ impl Seen<'_> {
         });
     }
 
-    /// Adds deeper points over a triangle of a patch that the part is deep in, along a normal that is its own: of one
-    /// that the part meets, where nothing else is deep.
+    /// Adds deeper points over a triangle of a patch that the part is deep in, along the triangle's normal; for a
+    /// triangle that the part meets, only where nothing is deep along other normals.
     fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, is_alone: bool, known: &mut Known) {
         if let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
         {
             let prism = Prism { reach: found - self.standing.slack, ..self.prism_over(&plane) };
             let do_meet = self.meets(&prism);
-            // What the part meets has spoken for itself, by one face of the part, or through another normal.
+            // A triangle that the part meets has its points already, from one face of the part or along another normal.
             if !do_meet {
                 self.add_by_normal(&prism, known);
             }
@@ -158,24 +159,24 @@ impl Seen<'_> {
 /// The square of the cosine of an angle far wider than the tolerance of normals that are the same: 8 degrees.
 const ROUGHLY: f64 = 0.98;
 
-/// Whether a triangle's own normal, of whichever side, may be a unit normal.
+/// Whether a triangle's normal, of either side, may be this unit normal.
 fn is_along(near: &NearTriangle, normal: DVec3) -> bool {
     let front = front_of(near.corners);
     let along = front.dot(normal);
     along * along >= ROUGHLY * front.length_squared()
 }
 
-/// Where a part is deep along a normal: made once for all triangles that are asked about.
+/// Where a part is deep along a normal: computed once for all triangles that are tested.
 pub(super) struct DeepIn {
     /// Flat patches, by faces and edges.
     patches: ArrayVec<u32, { 2 * MOST_POINTS }>,
-    /// Corners, of which it is not known to what patches they belong.
+    /// Corners, whose patches are not known.
     corners: ArrayVec<u32, MOST_POINTS>,
 }
 
 impl DeepIn {
-    /// Whether it is the flat patch of a triangle, an edge of that, or a corner of the triangle itself: which others
-    /// meet there, a corner does not say.
+    /// Whether it includes a triangle's flat patch, an edge of that, or a corner of the triangle itself: a corner does
+    /// not say which other triangles meet there.
     pub(super) fn holds(&self, ground: Ground, number: u32) -> bool {
         self.patches.contains(&ground.patch(number))
             || !self.corners.is_empty()
