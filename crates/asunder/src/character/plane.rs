@@ -1,4 +1,4 @@
-//! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`].
+//! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`](crate::World2).
 
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;

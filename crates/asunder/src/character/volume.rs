@@ -1,4 +1,4 @@
-//! Characters in space: vectors, the narrow phase, and the methods of [`World3`].
+//! Characters in space: vectors, the narrow phase, and the methods of [`World3`](crate::World3).
 
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
