@@ -1,11 +1,11 @@
-//! Sixteen gaps between boxes compared at once, portable and for AVX2: a bit mask of which are none.
+//! Compares sixteen gaps between boxes at once, portable and for AVX2, into a bit mask of those that are not positive.
 
 use super::rows::{LANES, gaps_to_mask};
 use crate::width::Portable;
 
-/// Sixteen gaps between boxes.
+/// How a width compares sixteen gaps.
 pub(crate) trait SixteenGaps {
-    /// Which of them are none, and which are zero: see [`gaps_to_mask`], which is the definition.
+    /// Which of them are not positive, and which are zero; [`gaps_to_mask`] is the definition.
     fn mask(self, gaps: &[i16; LANES]) -> u32;
 }
 
@@ -32,7 +32,7 @@ mod avx2 {
         }
     }
 
-    /// Two comparisons, and the top bits of all lanes in one instruction; the loop over lanes takes twenty.
+    /// Two comparisons, then the top bits of all lanes in one instruction; the loop over lanes takes twenty.
     #[target_feature(enable = "avx2")]
     #[inline]
     fn mask(gaps: &[i16; LANES]) -> u32 {
