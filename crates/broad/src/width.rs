@@ -54,7 +54,7 @@ mod avx2 {
 
         #[inline]
         pub(super) fn run<K: Kernel>(self, kernel: K) -> K::Output {
-            // SAFETY: this value says that the processor has both features, and they are all that `run_wide` needs.
+            // SAFETY: this value proves that the processor has both features, and `run_wide` needs no others.
             unsafe { run_wide(kernel, self) }
         }
     }

@@ -252,8 +252,8 @@ const fn home(on_y: bool, on_z: bool) -> u32 {
 pub(crate) struct Stretch {
     pub(crate) start: u32,
     pub(crate) end: u32,
-    /// The cell with which it starts, and the one with which the stretch of the last box starts that this box may
-    /// overlap.
+    /// The cell with which it starts, and the last cell with which the stretch of a box that begins within this one can
+    /// start.
     pub(crate) cells: [u32; 2],
     /// Whether the box begins in this column, as flags of a place.
     pub(crate) home: u32,

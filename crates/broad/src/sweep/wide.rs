@@ -27,7 +27,7 @@ mod avx2 {
     impl SixteenGaps for Avx2 {
         #[inline(always)]
         fn mask(self, gaps: &[i16; LANES]) -> u32 {
-            // SAFETY: this value says that the processor has AVX2.
+            // SAFETY: this value proves that the processor has AVX2.
             unsafe { mask(gaps) }
         }
     }
