@@ -26,12 +26,12 @@
 //! 7. The nearest child bypasses the queue, and if a single nearest box is wanted, nothing is queued that is further
 //!    than a box already seen: the nearest box took 930 ns with a plain queue, and takes 570.
 //!
-//! Not the columns of the sweep (`crate::columns`): these have no order of distance, and what is nearest in an
-//! empty part of the world would have to be looked for ring by ring. Not measured themselves; a stand-in was, a
-//! grid of cells of 2 m (20 in `sizes` and
-//! `islands`; neither tuned) that holds each box once, with its sides, and knows the greatest side. For a box of
-//! the scene it takes 172 ns in `gas`, 136 among a million, 80 in `city`, 88 in `tower`; the tree 148, 149, 67 and
-//! 115. In `pile`, `sizes` and `islands` it takes 835, 487 and 6207 ns, the tree 304, 165 and 333.
+//! Why not the columns of the sweep (`crate::columns`): they have no order of distance, so the nearest box in an empty
+//! part of the world would have to be searched for ring by ring. They were not measured themselves, but a stand-in was:
+//! a grid of cells of 2 m (20 in `sizes` and `islands`; neither tuned) that stores each box once, with its bounds, and
+//! knows the greatest size. For a box of the scene it takes 172 ns in `gas`, 136 among a million, 80 in `city`, 88 in
+//! `tower`; the tree 148, 149, 67 and 115. In `pile`, `sizes` and `islands` it takes 835, 487 and 6207 ns, the tree
+//! 304, 165 and 333.
 //!
 //! Tried: batches of queries, sorted along a curve: 1.1 to 1.4 times as fast (2.5 in `islands`), the sort not counted.
 //! It is not offered; callers whose queries have such an order should keep it. Tried: pushing nodes on the stack
