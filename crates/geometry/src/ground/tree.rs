@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! build    split into full children of 8, 64, 512 ... boxes; the last one takes the rest:
-//!          halve by count, in multiples of a child, along the axis on which centres are spread widest, down to children
+//!          halve by count, in multiples of a child, along the axis on which centres are spread widest
 //! overlap  test the eight boxes of a node at once; hand over boxes, push nodes on a stack
 //! order    test the eight boxes of a node at once; push all that pass on a stack, the nearest on top
-//! reach    to six sides, skip everything that reaches no further than what was found                          (outermost)
+//! reach    to six sides, skip everything that reaches no further than what was found                       (outermost)
 //! ```
 //! A tree of boxes has their numbers in its lowest nodes. A tree of triangles has leaves instead, with the corners of
 //! up to eight triangles as a structure of arrays, from which boxes are computed on demand. So a ray needs no further
