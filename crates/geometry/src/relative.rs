@@ -1,4 +1,4 @@
-//! Poses in the axes of others: what is held, carried and mounted.
+//! Poses relative to others, for things that are held, carried or mounted.
 
 use crate::basis3::turn_between;
 use crate::pose2::{Pose2, Rotation2};
