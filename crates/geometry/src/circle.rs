@@ -45,7 +45,7 @@ impl Circle {
         self.radius
     }
 
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         point.into().length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }

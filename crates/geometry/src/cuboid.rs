@@ -53,8 +53,8 @@ impl Cuboid {
         Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// The same cuboid with everything within `radius` metres added: round corners and edges, and larger by the radius
-    /// on every side. Zero takes the rounding away.
+    /// The same cuboid expanded by `radius` metres on every side, with round edges and corners. Zero removes the
+    /// rounding.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, glam::{DVec3, Vec3}};
@@ -124,10 +124,10 @@ impl Cuboid {
         round_down(f64::from(self.half_extents.min_element()) + f64::from(self.radius))
     }
 
-    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
+    /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
-        // The greater of a NaN and zero is zero.
+        // `max` of NaN and zero is zero.
         let beyond = (point.abs() - self.half_extents.as_dvec3()).max(DVec3::ZERO);
         !point.is_nan() && beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }

@@ -92,7 +92,7 @@ impl Triangle3 {
         [normal, -normal]
     }
 
-    /// The centre that the bounding radius is about: the centroid, rounded to f32.
+    /// The centre of the bounding radius: the centroid, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
         let [a, b, c] = self.vertices;

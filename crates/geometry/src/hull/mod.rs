@@ -148,7 +148,7 @@ impl Hull {
         self.data.inner_arm
     }
 
-    /// The centre that both radii are about: the centre of volume, area or length, rounded to f32.
+    /// The centre of both radii: the centre of volume, area or length, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
         self.data.center

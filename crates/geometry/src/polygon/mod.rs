@@ -226,14 +226,13 @@ impl Polygon {
         self.data.extremes.map(usize::from)
     }
 
-    /// The centre that both radii are about: the centroid, rounded to f32.
+    /// The centre of both radii: the centroid, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec2 {
         self.data.center
     }
 
-    /// The same polygon with everything within `radius` metres added: round corners, and larger by the radius on every
-    /// side. Zero takes the rounding away.
+    /// The same polygon expanded by `radius` metres on every side, with round corners. Zero removes the rounding.
     ///
     /// ```
     /// use asunder_geometry::{Polygon, glam::{DVec2, Vec2}};
@@ -265,7 +264,7 @@ impl Polygon {
         self.radius
     }
 
-    /// Radius of a circle about [`Polygon::center`] that holds the shape, in metres, rounded up.
+    /// Radius of a circle about [`Polygon::center`] that contains the shape, in metres, rounded up.
     #[inline]
     pub fn outer_radius(&self) -> f32 {
         grown(self.data.outer_radius, self.radius)
@@ -294,8 +293,8 @@ impl Polygon {
         self
     }
 
-    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding. Cost: linear in the
-    /// vertices.
+    /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding. Cost: linear in
+    /// the vertices.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         if !point.is_finite() {
