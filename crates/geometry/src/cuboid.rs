@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 /// -x, +x, -y, +y, -z, +z.
 ///
 /// # Costs and limits
-/// Two cuboids cost fifteen axes in closed form; a contact has up to four points. Half extents above zero, however
+/// Two cuboids take fifteen axes in closed form; a contact has up to four points. Half extents above zero, however
 /// thin, and a bounding radius of 1e-6 to 1e6 m.
 ///
 /// ```
@@ -92,7 +92,7 @@ impl Cuboid {
     /// The eight corners; of a rounded cuboid, those of its core.
     #[inline]
     pub fn vertices(&self) -> [Vec3; 8] {
-        // Written out: kernels ask for them a pair, and `from_fn` calls.
+        // Written out, as kernels need them for every pair, and `from_fn` is a call.
         let Vec3 { x, y, z } = self.half_extents;
         [
             Vec3::new(-x, -y, -z),

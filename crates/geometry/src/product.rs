@@ -1,15 +1,15 @@
-//! Products with what rounding took from them.
+//! Products with their exact rounding errors.
 //!
-//! Dekker, "A floating-point technique for extending the available precision" (1971): without a fused multiply-add,
-//! which not every platform has.
+//! Dekker, "A floating-point technique for extending the available precision" (1971), without fused multiply-add, which
+//! not every platform has.
 
-/// `a b - c d`, right to a few units in the last place: what each product lost is added back.
+/// `a b - c d`, right to a few units in the last place: the rounding error of each product is added back.
 pub(crate) fn product_difference(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let ((ab, ab_lost), (cd, cd_lost)) = (exact_product(a, b), exact_product(c, d));
     (ab - cd) + (ab_lost - cd_lost)
 }
 
-/// A product as its rounded value and the rest.
+/// A product as its rounded value and the rounding error.
 fn exact_product(a: f64, b: f64) -> (f64, f64) {
     let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
     let rounded = a * b;

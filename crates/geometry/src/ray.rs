@@ -4,8 +4,8 @@ use crate::direction::{DirectionError, check_direction};
 use crate::pose3::{PoseError, check_position};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A ray in the plane: from an origin, in a direction of any length but zero. A parameter t along it means
-/// origin + t direction.
+/// A ray in the plane: an origin, and a direction of any length but zero. The point at parameter t is origin + t
+/// direction.
 ///
 /// ```
 /// use asunder_geometry::{DirectionError, Ray2, RayError, glam::{DVec2, Vec2}};
@@ -77,8 +77,7 @@ impl Ray2 {
     }
 }
 
-/// A ray in space: from an origin, in a direction of any length but zero. A parameter t along it means
-/// origin + t direction.
+/// A ray in space: an origin, and a direction of any length but zero. The point at parameter t is origin + t direction.
 ///
 /// ```
 /// use asunder_geometry::{DirectionError, Ray3, RayError, glam::{DVec3, Vec3}};
@@ -150,7 +149,7 @@ impl Ray3 {
     }
 }
 
-/// Why a ray was refused.
+/// Why a ray was rejected.
 ///
 /// ```
 /// use asunder_geometry::{PoseError, Ray3, RayError, glam::Vec3};
