@@ -369,7 +369,7 @@ mod tests {
         let mut broken = unit;
         broken.max.y = f32::NAN;
         assert!(!unit.overlaps(&broken) && !broken.overlaps(&broken));
-        // Inverted, yet every one of the six comparisons holds: only the explicit check refuses it.
+        // Inverted, yet every one of the six comparisons holds: only the explicit check rejects it.
         let inverted = Aabb3::new(Vec3::splat(0.6), Vec3::splat(0.4));
         assert!(!unit.overlaps(&inverted) && !inverted.overlaps(&unit));
     }

@@ -355,7 +355,7 @@ mod tests {
         Pose3::new(DVec3::new(1.0, -2.0, 3.0), Quat::from_array(q)).unwrap()
     }
 
-    /// Rotations near and far, of all lengths, and exactly half a turn.
+    /// Rotations near and far apart, of all lengths, and exactly half a turn.
     const ROTATIONS: [[f32; 4]; 8] = [
         [0.0, 0.0, 0.0, 1.0],
         [0.1, -0.2, 0.3, 0.4],
@@ -456,7 +456,7 @@ mod tests {
         );
     }
 
-    /// By the formula of Rodrigues, which knows no quaternions.
+    /// By the formula of Rodrigues, without quaternions.
     fn rotated(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
         let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
         v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))

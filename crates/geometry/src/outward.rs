@@ -187,7 +187,7 @@ mod tests {
             let tight = around3(points.iter().map(|point| point.as_dvec3()), &pose, 0.0);
             let found = around_octets(&octets, extent, &pose, 0.0);
             assert!(found.min.cmple(tight.min).all() && found.max.cmpge(tight.max).all(), "{case}");
-            // And the last f32 of a place up to eleven extents away.
+            // Plus the f32 rounding of a position up to eleven extents away.
             let wider = (tight.min - found.min).max(found.max - tight.max).max_element();
             assert!(wider <= 3e-6 * extent, "{case}: {wider} of {extent}");
         }

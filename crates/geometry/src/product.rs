@@ -40,7 +40,7 @@ mod tests {
             let (a, b) = (next(), next());
             let (rounded, lost) = exact_product(a as f64, b as f64);
             assert_eq!(rounded as i128 + lost as i128, i128::from(a) * i128::from(b), "{a} {b}");
-            // Next to each other, both products are all but lost.
+            // Neighbouring factors: both products cancel almost completely.
             let (c, d) = (a + 1, b - 1);
             let truth = i128::from(a) * i128::from(b) - i128::from(c) * i128::from(d);
             let found = product_difference(a as f64, b as f64, c as f64, d as f64);

@@ -192,7 +192,7 @@ mod tests {
     use crate::columns::{Columns, IN_ORDER};
     use asunder_geometry::{Aabb3, glam::Vec3};
 
-    /// Boxes on a lattice, out of order, some of them large or none; so many of these.
+    /// Boxes on a lattice, out of order, some of them large or empty; and how many are empty.
     fn boxes() -> (Vec<Aabb3>, usize) {
         let none = |i: u32| i % 1000 == 17;
         let boxes = (0..30_000_u32).map(|i| {

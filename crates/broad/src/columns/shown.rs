@@ -77,7 +77,7 @@ mod tests {
         assert!(columns.len() > 3, "{}", columns.len());
         let whole = columns.iter().map(|column| column.bounds).reduce(|all, one| all.union(&one)).unwrap();
         for column in &columns {
-            // The outermost take all that is beyond. Codes are a 65,536th of the whole.
+            // The outermost columns take everything beyond. Codes are a 65,536th of the whole.
             let count = |more: f32| {
                 let mut grown = Aabb3::new(column.bounds.min - more, column.bounds.max + more);
                 for axis in 0..3 {
@@ -103,7 +103,7 @@ mod tests {
             },
         );
         let compared = sweep.columns().map(|column| column.candidates.unwrap()).sum::<usize>();
-        // Every pair is compared, most pairs of boxes are not, and no two of a column more than once.
+        // Every overlapping pair is compared, most other pairs are not, and no pair more than once per column.
         assert!(
             (pairs..boxes.len() * boxes.len() / 20).contains(&compared),
             "{pairs} pairs, {compared} compared"
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn a_column_that_is_cut_further_does_not_tell_what_it_compares() {
-        // Two clumps far apart: columns over both leave each in one.
+        // Two clumps far apart: columns over both leave each clump in one column.
         let part = |i: u32, by: f64| (f64::from(i) * by).fract() as f32;
         let place = |i| Vec3::new(part(i, 0.819_172_5), part(i, 0.671_043_6), part(i, 0.549_700_4));
         let aside = |i: u32| Vec3::splat(if i.is_multiple_of(2) { 0.0 } else { 1e5 });

@@ -180,7 +180,7 @@ mod tests {
         1 + inner.map(|(_, child)| depth(nodes, child)).max().unwrap_or(0)
     }
 
-    /// Boxes at powers of two, below zero: each halving takes off one power.
+    /// Boxes at negative powers of two: each halving splits off one power.
     #[test]
     fn no_tree_is_deeper_than_the_stack_of_a_question() {
         for copies in [1, 9, 100] {

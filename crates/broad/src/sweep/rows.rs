@@ -235,7 +235,7 @@ mod tests {
     use super::*;
     use crate::width::Portable;
 
-    /// Sixteen boxes whose codes are few and extreme, so that all kinds of meetings come up.
+    /// Sixteen boxes with few and extreme codes, so that all cases of overlap come up.
     fn boxes(seed: &mut u32) -> ([Codes; LANES], [[i16; LANES]; 6]) {
         const CODES: [i16; 8] = [i16::MIN, -32_767, -32_766, -1, 0, 1, 32_766, 32_767];
         let mut code = || {
@@ -256,7 +256,7 @@ mod tests {
         (boxes, strips)
     }
 
-    /// What the lanes must say, from the definition, box by box.
+    /// The expected result of the lanes, from the definition, box by box.
     fn expected(one: &Codes, others: &[Codes; LANES]) -> Vec<(u32, bool)> {
         let verdict = |other: &Codes| {
             let gap = |axis: usize| {

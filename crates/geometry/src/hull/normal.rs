@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_sliver_has_the_normal_that_integers_give() {
-        // In steps of 2^-45: one corner next to the origin, so that differences have more digits than f32.
+        // In steps of 2^-45, with one corner next to the origin, so that differences have more digits than f32.
         let (long, near) = (1_i128 << 45, [12_345_677_i128, -2_345_679, 3_456_789]);
         for (b, c) in [
             ([long, long / 2, -long], [long + (1 << 22), long / 2 + (1 << 23), -long + (1 << 24)]),
@@ -200,7 +200,7 @@ mod tests {
             (bits >> 33) % below
         };
         for round in 0..20_000_u64 {
-            // Corners whose places have more and more digits between them, down to where the difference is rounded.
+            // Corners whose differences have more and more digits, up to where they are rounded.
             let mut part = || {
                 let (value, place) = (next(1 << 24) as f32 - 8_388_608.0, next(1 + round % 40) as f32);
                 value * place.exp2() * 1e-9

@@ -84,13 +84,12 @@ mod tests {
 
     const SHARES: [f32; 5] = [1e-3, 0.1, 1.0, 10.0, 1e3];
 
-    /// The area of a regular polygon over that of its circle's square.
+    /// The area of a regular polygon over its squared radius.
     fn area(sides: usize) -> f64 {
         0.5 * sides as f64 * libm::sin(core::f64::consts::TAU / sides as f64)
     }
 
-    /// Makes hulls of a radius of 1 with these numbers of sides, thin and thick; of so many corners and faces, none
-    /// lost.
+    /// Makes hulls of radius 1 with these numbers of sides, thin and thick, and checks that no corner or face is lost.
     fn made(
         sides: RangeInclusive<usize>,
         make: fn(f32, f32, usize) -> Result<Hull, HullError>,

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! facets(chain of corners, from edge first-last):
-//!     apex = the corner whose triangle with the edge has no other above it     exact; of equals, that nearest the middle
+//!     apex = the corner whose triangle with the edge has no other above it (exact; of equals, that nearest the middle)
 //!     visit (first, apex, last); then facets(first ..= apex) and facets(apex ..= last)
 //! ```
 

@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_sliver_has_its_centre_of_mass_within() {
-        // What places about its middle are rounded by is more than it has of an area.
+        // The rounding of positions about its middle is more than its area.
         let corners = [(0.0, 0.0), (128_701.21, 480_313.9), (4.964_317e-11, 1.852_687e-10)].map(Vec2::from);
         for radius in [0.0, 1e-45, 1e-12, 1e-3] {
             let sliver = Polygon::hull_of(&corners).unwrap().rounded(radius).unwrap();
