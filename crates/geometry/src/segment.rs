@@ -318,9 +318,9 @@ pub enum CapsuleError {
         /// What was given, in metres.
         value: f32,
     },
-    /// What is wrong with its segment.
+    /// Its segment is invalid.
     Ends(VertexError),
-    /// What is wrong with its radius.
+    /// Its radius is invalid.
     Radius(RadiusError),
 }
 

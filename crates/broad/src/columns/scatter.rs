@@ -115,7 +115,7 @@ impl Columns {
         starts[..next.len()].copy_from_slice(next);
         let no_box = ends.len() as u32 - 1;
         for_entries(records, straddlers, (grid, first), |cell, entry| {
-            // Codes cannot represent an empty box. These stand behind all others, where nobody looks.
+            // Codes cannot represent an empty box. These are put behind all others, where they are never read.
             if cell != no_box {
                 put(entries, &mut next[(cell >> *shift) as usize], entry);
             }

@@ -66,7 +66,7 @@ impl Strips {
     pub(crate) fn fill(&mut self, entries: &[Entry]) {
         let count = entries.len();
         for (number, strip) in self.strips.iter_mut().enumerate() {
-            // Padding behind the last box that overlaps nothing: lower bounds above all codes, upper bounds below.
+            // Pads with boxes that overlap nothing: lower bounds above all codes, upper bounds below.
             let never = if number < 3 { i16::MAX } else { i16::MIN };
             strip.resize(count + LANES, never);
             strip[count..].fill(never);
@@ -138,7 +138,7 @@ impl Pack {
     pub(crate) fn fill(packs: &mut Vec<Self>, entries: &[Entry]) {
         packs.clear();
         packs.extend(entries.chunks(LANES).map(|entries| {
-            // Padding behind the last box, which overlaps nothing.
+            // Pads with boxes that overlap nothing.
             let mut pack = Self { codes: [[i16::MIN; LANES]; 6], places: [0; LANES] };
             pack.codes[..3].fill([i16::MAX; LANES]);
             for (lane, entry) in entries.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIUS};
 
-/// Why points were refused as a hull.
+/// Why points were rejected as a hull.
 ///
 /// ```
 /// use asunder_geometry::{Hull, HullError, glam::Vec3};

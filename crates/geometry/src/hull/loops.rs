@@ -82,7 +82,7 @@ impl Loops {
         (sorted, order().filter_map(|index| beside.get(index).copied()).collect())
     }
 
-    /// As [`in_order`](Self::in_order), with nothing beside them.
+    /// As [`in_order`](Self::in_order), without other values.
     pub(super) fn canonical(self) -> Self {
         self.in_order::<()>(&[]).0
     }

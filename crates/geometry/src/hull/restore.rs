@@ -28,7 +28,7 @@ pub(crate) enum StoredHullError {
     },
     /// The faces do not form a closed surface.
     Open,
-    /// A vertex lies further beyond a face than merging could have left it.
+    /// A vertex lies `beyond` metres beyond a face, further than merging could have left it.
     NotConvex {
         beyond: f32,
     },

@@ -84,7 +84,7 @@ impl MassProperties2 {
     }
 
     /// Combines several parts to one rigid body. They must be given in the same axes: see [`MassProperties2::posed`].
-    /// No parts have no mass; if no part has mass, the centre is the mean of theirs.
+    /// Without parts the mass is zero; if no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };
@@ -110,7 +110,7 @@ impl MassProperties3 {
     }
 
     /// Combines several parts to one rigid body. They must be given in the same axes: see [`MassProperties3::posed`].
-    /// No parts have no mass; if no part has mass, the centre is the mean of theirs.
+    /// Without parts the mass is zero; if no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };

@@ -249,8 +249,8 @@ impl Polygon {
         Ok(self)
     }
 
-    /// An address that two polygons have in common exactly when they share their data, whatever their rounding;
-    /// only good while both live. It differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two polygons have in common exactly when they share their data, whatever their rounding; valid
+    /// only while both live. It differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
