@@ -1,21 +1,21 @@
-//! Temporal coherence: what rests is kept, what moves is swept.
+//! Temporal coherence: keeps the pairs of boxes that rest, and looks up the boxes that move.
 //!
 //! ```text
-//! where more than a fifth of the boxes moved: sweep all
-//! else, of the boxes that have moved since all were swept (the movers):
-//!   drop the kept pairs of those that were not among them before
-//!   look up each in the columns that the sweep of all left behind         rest
-//!   movers that look in one place meet each other; where too many do, sweep the movers among themselves
+//! if more than a fifth of the boxes moved: sweep all
+//! else, for the boxes that have moved since the last sweep of all (the movers):
+//!   drop the kept pairs of boxes that have just become movers
+//!   look up each mover in the columns that the sweep of all left behind   rest
+//!   movers that look in the same place are tested against each other; if too many do, sweep the movers by themselves
 //!   sort these pairs, and merge them with the kept ones
-//! sweep all again: when a fifth of all boxes has moved by now; when looking up movers that have come to rest has cost as
-//!   much as a sweep; or when movers reach so many boxes at rest that looking them up would cost as much
+//! sweep all again once a fifth of all boxes are movers; once looking up movers that have come to rest has cost as much
+//!   as a sweep; or once movers reach so many boxes at rest that looking them up would cost as much
 //! ```
-//! A frame costs 150 ns a mover among 10,000 boxes, 240 among 100,000 and 840 among a million, and a copy of the kept
-//! pairs (0.3 ns each); boxes that rest cost nothing. It was 230, 380 and 1,030 with a sweep of the movers, strips in six
-//! lists, and a merge that searched for each place (a hundredth moves; Intel Xeon, 2.5 GHz, 2026-11-28, medians in
-//! turns). Tried: asking memory for what is looked at six looks later: a tenth less from 100,000 boxes on, 3 % more for
-//! 10,000, and unsafe.
-//! The list is that of [`Sweep`](crate::Sweep), whatever came before: history decides only what it costs.
+//! A frame costs 150 ns per mover among 10,000 boxes, 240 among 100,000 and 840 among a million, and a copy of the kept
+//! pairs (0.3 ns each); boxes that rest cost nothing. It was 230, 380 and 1,030 with a sweep of the movers, strips in
+//! six lists, and a merge that searched for the place of each pair (a hundredth moves; Intel Xeon, 2.5 GHz, 2026-11-28,
+//! medians in turns). Tried: prefetching what is looked up six lookups later: a tenth less from 100,000 boxes on, 3 %
+//! more for 10,000, and needs unsafe code. The list equals that of [`Sweep`](crate::Sweep) whatever came before:
+//! history affects only the cost.
 
 mod rest;
 
@@ -27,7 +27,7 @@ use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use rest::{Met, Rest};
 
-/// All overlapping pairs of boxes of which few move from frame to frame.
+/// Finds all overlapping pairs of boxes, few of which move from frame to frame.
 ///
 /// ```
 /// use asunder_broad::{CoherentSweep, PairId};
@@ -47,23 +47,23 @@ use rest::{Met, Rest};
 /// ```
 #[derive(Debug)]
 pub struct CoherentSweep<B> {
-    /// Of all boxes; its columns stay.
+    /// The sweep of all boxes, whose columns are kept.
     sweep: Sweep,
     rest: Rest<B>,
     is_kept: bool,
-    /// Boxes at the last call.
+    /// Number of boxes at the last call.
     known: usize,
-    /// Boxes that have moved since the sweep of all, ascending.
+    /// Boxes that have moved since the last sweep of all, ascending.
     movers: Vec<u32>,
-    /// Pairs of two boxes that have not.
+    /// Pairs of two boxes that have not moved since.
     kept: Vec<PairId>,
     /// Movers that stood still, summed over frames.
     idle: usize,
-    /// Of movers alone, where too many are in one place: them, and what it found.
+    /// The sweep of movers alone, for where too many are in one place; their boxes, and the pairs it found.
     sweep_of_movers: Sweep,
     moving: Vec<B>,
     among: Vec<PairId>,
-    /// Pairs of which one box moved at least.
+    /// Pairs with at least one mover.
     fresh: Vec<PairId>,
     order: Order,
 }
@@ -71,13 +71,13 @@ pub struct CoherentSweep<B> {
 asunder_geometry::copied!(CoherentSweep<B>, for [B: Bounds], { sweep, rest, is_kept, known, movers, kept, idle }
     but { sweep_of_movers, moving, among, fresh, order });
 
-/// Where more than one box in so many moves, all are swept.
+/// If more than one box in this many moves, all are swept.
 pub(crate) const FEW: usize = 5;
 
-/// Looking up so many movers costs about as much as sweeping one box of all.
+/// Looking up this many movers costs about as much as a sweep of all does per box.
 const IDLE_A_BOX: usize = 2;
 
-/// Pairs that are asked about at a time.
+/// Pairs that the filter is asked about at a time.
 const AT_ONCE: usize = 1024;
 
 impl<B: Bounds> Default for CoherentSweep<B> {
@@ -107,10 +107,9 @@ impl<B: Bounds> CoherentSweep<B> {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order, and
-    /// again if need be. Boxes behind those of the last call are new, and need not be named. What is not named is
-    /// believed to be as it was. A box that is taken away becomes an empty set. `admit` is asked as by
-    /// [`Sweep::pairs`].
+    /// `moved` names the boxes that differ from the last call in any way, their filters included; in any order,
+    /// repetitions allowed. Boxes beyond those of the last call are new, and need not be named. All others are assumed
+    /// to be unchanged. To remove a box, make it an empty set. `admit` is asked as by [`Sweep::pairs`].
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
@@ -125,7 +124,7 @@ impl<B: Bounds> CoherentSweep<B> {
         self.update_by(boxes, moved, &|pairs| keep(pairs, &admit), limit, pairs)
     }
 
-    /// The same, asking about many pairs at a time.
+    /// The same, with a filter of many pairs at a time.
     pub(crate) fn update_by(
         &mut self,
         boxes: &[B],
@@ -164,15 +163,15 @@ impl<B: Bounds> CoherentSweep<B> {
         Ok(())
     }
 
-    /// The columns of the last sweep of all boxes, as [`Sweep::columns`] tells them: what moves meanwhile is looked up
-    /// in them, and sorted into none.
+    /// The columns of the last sweep of all boxes, as [`Sweep::columns`] lists them. Boxes that have moved since are
+    /// looked up in them, but not sorted into any.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: some 85 a box (30 to 60 more where several threads sort them)
-    /// and 16 a pair, and 44 for every column that a mover reaches, of which there are about four for every box at
-    /// most; where columns are of no use, 64 a box more, and for each thread.
+    /// Memory that is held for the next call, in bytes: some 85 per box (30 to 60 more where several threads sort
+    /// them), 16 per pair, and 44 for every column that a mover reaches, at most about four for every box; where
+    /// columns are of no use, another 64 per box, for each thread.
     ///
     /// ```
     /// assert_eq!(asunder_broad::CoherentSweep::<asunder_geometry::Aabb2>::new().bytes(), 0);
@@ -196,23 +195,24 @@ impl<B: Bounds> CoherentSweep<B> {
         }
     }
 
-    /// Whether all are swept again, or nearly, where so many more move.
+    /// Whether all boxes are to be swept again, if so many more have moved.
     pub(crate) fn is_worn(&self, more: usize) -> bool {
         let are_few = (self.movers.len() + more) * FEW <= self.known;
         !(self.is_kept && are_few && self.idle * IDLE_A_BOX <= self.known)
     }
 
-    /// Boxes that have moved since all were swept.
+    /// Number of boxes that have moved since the last sweep of all.
     pub(crate) fn movers(&self) -> usize {
         self.movers.len()
     }
 
-    /// Nothing that was before is of use to the next call.
+    /// Discards what is kept: the next call sweeps all boxes.
     pub(crate) fn forget(&mut self) {
         self.is_kept = false;
     }
 
-    /// Sweeps all; what follows a frame in which few moved is likely to be one of that kind, and finds everything kept.
+    /// Sweeps all boxes. With `keep`, keeps what the next call needs to look up movers: a frame in which few boxes move
+    /// is likely to be followed by another.
     pub(crate) fn sweep_all(
         &mut self,
         boxes: &[B],
@@ -235,12 +235,12 @@ impl<B: Bounds> CoherentSweep<B> {
         Ok(())
     }
 
-    /// The pairs of which one box moved at least, in no order; or false, if a sweep of all costs less.
+    /// Finds the pairs with at least one mover, unsorted. Returns false if a sweep of all would cost less.
     fn pairs_of_movers(&mut self, boxes: &[B], admit: &Admit, limit: usize) -> Result<bool, TooManyPairs> {
         let Self { movers, moving, among, fresh, .. } = self;
         fresh.clear();
         let mut found = Gathered { pairs: fresh, admitted: 0, admit, limit };
-        // First what may turn out to be too much: then nobody has been asked about any pair yet.
+        // First what may turn out to be too much: no pair has been passed to the filter by then.
         let met = match self.sweep.whole() {
             Some(sorted) => self.rest.meet(sorted, boxes, movers, &mut found),
             None => Met::Resting,
@@ -262,24 +262,24 @@ impl<B: Bounds> CoherentSweep<B> {
     }
 }
 
-/// Pairs that come one by one, and are asked about many at a time.
+/// Collects pairs that come one by one, and filters them many at a time.
 struct Gathered<'a> {
     pairs: &'a mut Vec<PairId>,
-    /// So many of them have been asked about.
+    /// So many of them have passed the filter.
     admitted: usize,
     admit: &'a Admit<'a>,
     limit: usize,
 }
 
 impl Gathered<'_> {
-    /// Takes one in; false where there are too many.
+    /// Adds a pair; false if there are too many.
     #[inline]
     fn take(&mut self, pair: PairId) -> bool {
         self.pairs.push(pair);
         self.pairs.len() < self.admitted + AT_ONCE || self.sift()
     }
 
-    /// Asks about those that are left; false where there are too many.
+    /// Filters the pairs that have not been yet; false if there are too many.
     fn sift(&mut self) -> bool {
         self.admitted += (self.admit)(&mut self.pairs[self.admitted..]);
         self.pairs.truncate(self.admitted);
@@ -287,20 +287,20 @@ impl Gathered<'_> {
     }
 }
 
-/// Pairs that are copied at a time where the next one to be put between them is far, and where it is near.
+/// Pairs that are copied at a time while the next one to be inserted is far, and once it is near.
 const STRETCH: usize = 64;
 const STEP: usize = 8;
 
-/// Replaces `into` by both lists, in order.
+/// Replaces `into` by the merge of both sorted lists.
 fn merge(kept: &[PairId], fresh: &[PairId], into: &mut Vec<PairId>) {
     into.resize(kept.len() + fresh.len(), PairId { a: 0, b: 0 });
     widest(Merging { kept, fresh, into });
 }
 
-/// Writes both lists into one that is as long as they are, in order.
+/// Merges both sorted lists into one of their total length.
 ///
-/// Whatever is copied is so in pieces of one length, of which the last may be too long: the next piece is written over
-/// what was too much. How many of its pairs come first is counted, so that few branches are taken wrongly.
+/// Copies pieces of fixed length. The last piece before an inserted pair may be too long; the next one overwrites the
+/// excess. How many of its pairs come before is counted without branches, so that few are mispredicted.
 struct Merging<'a> {
     kept: &'a [PairId],
     fresh: &'a [PairId],

@@ -1,8 +1,8 @@
 //! Boxes in, candidate pairs out.
 //!
-//! A broad phase knows no shapes: it is handed axis-aligned boxes, numbered by their place in a slice, and says
-//! which of them overlap. Boxes are closed sets, so touching counts; a box with a NaN, or with a minimum above its
-//! maximum, is empty and overlaps nothing. The pair list is sorted, and is a function of the boxes alone.
+//! A broad phase knows no shapes: it is given axis-aligned boxes, numbered by their place in a slice, and finds which
+//! of them overlap. Boxes are closed sets, so touching counts; a box with a NaN, or with a minimum above its maximum,
+//! is empty and overlaps nothing. The pair list is sorted, and is a function of the boxes alone.
 //!
 //! ```
 //! use asunder_broad::{PairId, Sweep};

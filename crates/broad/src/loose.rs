@@ -1,26 +1,29 @@
-//! Boxes that hardly move are swept once for many frames.
+//! Sweeps loose (fat) boxes, whose pairs stay valid for many frames while boxes hardly move.
 //!
 //! ```text
-//! every box lies in a loose one, wider by what it may go in some frames
+//! every box lies in a loose one, wider by what it may move in some frames
 //! each frame, of the boxes that moved:
-//!   those that are still in their loose ones: the pairs of these are what they were
-//!   a few have left theirs: they get others, and are looked up                            coherent
-//!   many have: these get others, and all are swept
-//! few moved, for some frames in a row: no box is loose, until many move
-//! of the pairs of loose boxes, those are told whose boxes overlap
-//! where that costs no less than sweeping the boxes, or the pairs of loose boxes are many more: no box is loose, and that is
-//!   tried again after twice as many frames each time
+//!   those that are still inside their loose ones: the pairs of loose boxes have not changed
+//!   if a few have left theirs: these get new loose boxes, which are looked up             coherent
+//!   if many have: all get new loose boxes, which are all swept
+//! if few moved, for some frames in a row: give up loose boxes, until many move
+//! report those pairs of loose boxes whose boxes overlap
+//! if that costs no less than sweeping the boxes, or loose boxes have many more pairs: give loose boxes up, and try
+//!   again after some frames, twice as many each time
 //! ```
-//! A frame in which all boxes get new loose ones, or give them up, takes up to three sweeps of the boxes. Bodies that
-//! rest on each other tremble, but they stay in their loose boxes while they do: a frame then costs one comparison per
-//! box and one per pair. The pairs are those of [`Sweep`](crate::Sweep), whatever came before: history decides only
-//! what it costs.
+//! A frame in which all boxes get new loose ones, or give them up, takes as long as up to three sweeps of the boxes.
+//! Bodies that rest on each other tremble, but stay inside their loose boxes meanwhile: a frame then costs one
+//! comparison per box and one per pair. The list equals that of [`Sweep`](crate::Sweep) whatever came before: history
+//! affects only the cost.
 //!
-//! Heaps at rest, awake, one thread (AMD EPYC, Zen 4, 2026-11-23): a sweep of 8,005 boxes takes 0.15 ms in place of
-//! 0.67, of 10,081 boxes in pyramids 0.12 in place of 0.53; whole frames are 1.08 and 1.15 times as fast. Tried: a
-//! width by size alone, of a hundredth: 60 % more pairs in a heap of boxes. 16 frames at a box's pace in place of 64:
-//! two thirds of the gain. All loose boxes made anew whenever some are worn, and narrower where they turned out too
-//! wide: who had turned back leaves them again.
+//! Heaps at rest but awake, one thread (AMD EPYC, Zen 4, 2026-11-23): a sweep of 8,005 boxes takes 0.15 ms in place of
+//! 0.67, of 10,081 boxes in pyramids 0.12 in place of 0.53; whole frames are 1.08 and 1.15 times as fast.
+//!
+//! Tried:
+//! - a margin by size alone, a hundredth of it: 60 % more pairs in a heap of boxes
+//! - a margin for 16 frames at a box's pace in place of 64: two thirds of the gain
+//! - new loose boxes for all whenever some are worn, narrower where they had been too wide: boxes that had turned back
+//!   leave them again
 //!
 //! Sources: neighbour lists with a skin, L. Verlet, *Computer "experiments" on classical fluids*, Phys. Rev. 159
 //! (1967); the fat boxes of the dynamic trees of Bullet and Box2D.
@@ -43,14 +46,14 @@ mod tests;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Moved<'a, C> {
-    /// Their places; in any order, and again if need be.
+    /// Their places; in any order, repetitions allowed.
     pub places: &'a [u32],
-    /// Whether such a box is another one than before: whether it is to be asked anew whom it may meet. Asked by any
-    /// thread, in any order.
+    /// Whether a box at such a place stands for something else than before, so that the filter must be asked about it
+    /// anew. Called from any thread, in any order.
     pub has_changed: C,
 }
 
-/// All overlapping pairs of boxes, each frame, whether few of them move or most of them a little.
+/// Finds all overlapping pairs of boxes each frame, whether few of them move or most of them a little.
 ///
 /// ```
 /// use asunder_broad::{LooseSweep, Moved, PairId};
@@ -70,19 +73,19 @@ pub struct Moved<'a, C> {
 pub struct LooseSweep<B> {
     sweep: CoherentSweep<B>,
     state: State,
-    /// Frames for which the boxes are swept when loose ones are taken off next time.
+    /// Frames for which boxes will be swept as they are, the next time that loose ones are given up.
     patience: u32,
-    /// Loose boxes, or where boxes were.
+    /// Loose boxes, or (in [`State::Noted`]) where boxes were.
     loose: Vec<B>,
-    /// By how much each is wider than its box was, in metres.
+    /// The margin of each around the box for which it was made, in metres.
     widths: Vec<f32>,
     /// Pairs of loose boxes.
     near: Vec<PairId>,
-    /// Boxes that have left theirs.
+    /// Boxes that have left their loose ones.
     strays: Vec<u32>,
-    /// Pairs at the last call.
+    /// Number of pairs at the last call.
     told: usize,
-    /// What loose boxes have cost since all got theirs, in nanoseconds.
+    /// What loose boxes have cost since all got new ones, in nanoseconds.
     spent: usize,
     /// Frames in a row in which boxes were loose, and few moved.
     still: u32,
@@ -93,32 +96,32 @@ asunder_geometry::copied!(LooseSweep<B>, for [B: Bounds], { sweep, state, patien
 /// What is swept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
-    /// Boxes are swept as they are. Loose boxes are tried after so many more frames in which many of them move.
+    /// Boxes as they are. Loose boxes are tried after so many more frames in which many boxes move.
     Boxes { frames: u32 },
-    /// The boxes; where they were is noted, to see how far they go in a frame.
+    /// Boxes as they are; their positions are noted, to see how far they move in a frame.
     Noted,
-    /// Loose boxes, which all of them got so many frames ago.
+    /// Loose boxes, made for all boxes so many frames ago.
     Loose { frames: usize },
 }
 
-/// Nanoseconds, about, that a sweep takes for each box, and for each pair (AMD EPYC, Zen 4).
+/// Cost of a sweep per box and per pair, in nanoseconds (AMD EPYC, Zen 4; roughly).
 const SWEPT: [usize; 2] = [45, 3];
 
-/// Nanoseconds to look up one box that left its loose one.
+/// Nanoseconds to look up a box that has left its loose one.
 const STRAY: usize = 300;
 
 /// Nanoseconds to check one box, or to keep one pair.
 const NEAR: usize = 3;
 
-/// Frames at a box's pace that a loose box is to last for. Bodies that tremble turn back long before.
+/// For how many frames at a box's current pace its loose box should last. Bodies that tremble turn back long before.
 const PACE: f32 = 64.0;
 
-/// A loose box is wider by this part of a box's least extent at most; of a plate or a needle, of a sixteenth of its
-/// greatest.
+/// The greatest margin, as a part of a box's least extent, or (of a plate or a needle) of a sixteenth of its greatest
+/// extent.
 const WIDEST: f32 = 0.125;
 
-/// Frames in a row in which few boxes move until no box is loose: what rests is then kept, which costs less than to
-/// tell pairs.
+/// Frames in a row in which few boxes move until loose boxes are given up: keeping pairs at rest costs less than
+/// testing the pairs of loose boxes.
 const STILL: u32 = 8;
 
 /// Least and most frames until loose boxes are tried again.
@@ -149,8 +152,8 @@ impl<B: Bounds> LooseSweep<B> {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// What moved is told as to [`CoherentSweep::update`]. `admit` may be asked about boxes that do not overlap but
-    /// nearly do, and what it said is believed until one of the two has changed.
+    /// `moved` is as for [`CoherentSweep::update`]. `admit` may be asked about boxes that do not quite overlap, and its
+    /// answer is kept until one of the two has changed.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty, and the next call starts from here.
@@ -176,13 +179,13 @@ impl<B: Bounds> LooseSweep<B> {
         outcome
     }
 
-    /// The columns of the last sweep of all boxes, as [`CoherentSweep::columns`] tells them.
+    /// The columns of the last sweep of all boxes, as [`CoherentSweep::columns`] lists them.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         self.sweep.columns()
     }
 
-    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move, 32 a
-    /// box and 8 a pair more.
+    /// Memory that is held for the next call, in bytes: that of [`CoherentSweep::bytes`]; where most boxes move,
+    /// another 32 per box and 8 per pair.
     pub fn bytes(&self) -> usize {
         self.sweep.bytes()
             + self.loose.capacity() * size_of::<B>()
@@ -190,7 +193,7 @@ impl<B: Bounds> LooseSweep<B> {
             + self.near.capacity() * size_of::<PairId>()
     }
 
-    /// Brings the pairs of loose boxes up to date; or says that boxes are to be swept as they are.
+    /// Brings the pairs of loose boxes up to date. False if boxes are to be swept as they are.
     fn finds_near<C: Fn(u32) -> bool + Sync>(
         &mut self,
         boxes: &[B],
@@ -212,7 +215,7 @@ impl<B: Bounds> LooseSweep<B> {
             State::Loose { frames } if boxes.len() >= self.loose.len() => {
                 self.still = if do_many { 0 } else { self.still + 1 };
                 if self.still > STILL {
-                    // Whatever rests costs less to keep; loose boxes have not failed.
+                    // Keeping pairs at rest costs less now. Loose boxes have not failed, so `patience` stays.
                     self.sweep.forget();
                     self.state = State::Boxes { frames: self.patience };
                     return false;
@@ -224,12 +227,13 @@ impl<B: Bounds> LooseSweep<B> {
         }
     }
 
-    /// Looks up who has left their loose boxes, if these last; gives all others, if they were worth it.
+    /// Looks up boxes that have left their loose ones, if these are few; otherwise makes new loose boxes for all if the
+    /// last were worth it, and else gives them up.
     fn go_on(&mut self, boxes: &[B], frames: usize, admit: &Admit) -> bool {
         let (sweep, look) = (self.cost_of_sweep(), self.cost_of_look());
         let is_worn = !self.strays.is_empty() && self.sweep.is_worn(self.strays.len());
         if 2 * look <= sweep && !is_worn {
-            // Of a frame in which few move, a sweep was not saved.
+            // A frame in which few boxes move saved no sweep.
             self.state = State::Loose { frames: frames + usize::from(self.still == 0) };
             self.spent += look + NEAR * (boxes.len() + self.near.len());
             self.look_up(boxes, admit)
@@ -241,22 +245,22 @@ impl<B: Bounds> LooseSweep<B> {
         }
     }
 
-    /// What sweeping the boxes costs, in nanoseconds.
+    /// Cost of sweeping the boxes, in nanoseconds.
     fn cost_of_sweep(&self) -> usize {
         SWEPT[0] * self.loose.len() + SWEPT[1] * self.told
     }
 
-    /// What looking up those costs that have left their loose ones, in nanoseconds.
+    /// Cost of looking up the boxes that have left their loose ones, in nanoseconds.
     fn cost_of_look(&self) -> usize {
         if self.strays.is_empty() {
             return 0;
         }
-        // Each has as many pairs as any other.
+        // Assumes that each has as many pairs as the average.
         let pairs = self.near.len() / self.loose.len().max(1);
         (STRAY + NEAR * pairs) * (self.sweep.movers() + self.strays.len()) + NEAR * self.near.len()
     }
 
-    /// Keeps where boxes are, to see how far they go.
+    /// Notes where boxes are, to see how far they move.
     fn note(&mut self, boxes: &[B]) {
         self.loose.clear();
         self.loose.extend_from_slice(boxes);
@@ -265,7 +269,7 @@ impl<B: Bounds> LooseSweep<B> {
         self.state = State::Noted;
     }
 
-    /// Gives all boxes loose ones, and sweeps these.
+    /// Makes loose boxes for all boxes, and sweeps these.
     fn loosen(&mut self, boxes: &[B], admit: &Admit) -> bool {
         self.loose.resize(boxes.len(), B::NOTHING);
         self.widths.resize(boxes.len(), 0.0);
@@ -275,7 +279,7 @@ impl<B: Bounds> LooseSweep<B> {
         self.state = State::Loose { frames: 0 };
         self.still = 0;
         let most = 2 * self.told + boxes.len();
-        // Room for the next times, too.
+        // With room for the next frames.
         self.strays.clear();
         self.strays.reserve(boxes.len());
         self.near.clear();
@@ -285,7 +289,7 @@ impl<B: Bounds> LooseSweep<B> {
         is_known || self.tighten()
     }
 
-    /// No box is loose for some time.
+    /// Gives up loose boxes for some time.
     fn tighten(&mut self) -> bool {
         self.sweep.forget();
         self.state = State::Boxes { frames: self.patience };
@@ -293,7 +297,7 @@ impl<B: Bounds> LooseSweep<B> {
         false
     }
 
-    /// Which boxes have changed, are new, or have left their loose ones.
+    /// Finds the boxes that have changed, are new, or have left their loose ones.
     fn find_strays<C: Fn(u32) -> bool + Sync>(&mut self, boxes: &[B], moved: &Moved<'_, C>) {
         let Self { loose, widths, strays, .. } = self;
         let is_stray = |place: u32| {
@@ -313,7 +317,7 @@ impl<B: Bounds> LooseSweep<B> {
         widths.resize(boxes.len(), 0.0);
     }
 
-    /// Gives the few that have left theirs others, and looks these up.
+    /// Makes new loose boxes for the few that have left theirs, and looks these up.
     fn look_up(&mut self, boxes: &[B], admit: &Admit) -> bool {
         if self.strays.is_empty() {
             return true;
@@ -328,7 +332,7 @@ impl<B: Bounds> LooseSweep<B> {
         is_known || self.tighten()
     }
 
-    /// Gives a box a loose one.
+    /// Makes a loose box for a box, unless it is still inside its old one.
     fn give(&mut self, place: usize, now: &B) {
         let had = self.loose[place];
         if self.widths[place] > 0.0 && had.encloses(now) && now.is_valid() {
@@ -340,7 +344,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 }
 
-/// By how much a box's loose one is to be wider, by the one that it had.
+/// The margin for a new loose box, from the old one and its margin.
 fn width_of<B: Bounds>(now: &B, had: &B, width: f32) -> f32 {
     if !now.is_valid() || !had.is_valid() {
         return 0.0;
@@ -356,9 +360,9 @@ fn width_of<B: Bounds>(now: &B, had: &B, width: f32) -> f32 {
     if wanted.is_finite() { wanted } else { 0.0 }
 }
 
-/// Replaces `pairs` by those of which the boxes overlap.
+/// Replaces `pairs` by the pairs of `near` whose boxes overlap.
 fn tell<B: Bounds>(near: &[PairId], boxes: &[B], pairs: &mut Vec<PairId>) {
-    // What is there already is written over.
+    // What is there already is overwritten.
     if pairs.len() < near.len() {
         pairs.resize(near.len(), PairId { a: 0, b: 0 });
     }

@@ -1,6 +1,6 @@
-//! `PairId`, two boxes that overlap by their numbers: what every sweep's list is made of.
+//! `PairId`, the numbers of two boxes that overlap: the element of every sweep's list.
 
-/// Two boxes that overlap, by their numbers, the smaller first. Orders by `a`, then by `b`.
+/// The numbers of two boxes that overlap, the smaller first. Ordered by `a`, then by `b`.
 ///
 /// ```
 /// use asunder_broad::PairId;

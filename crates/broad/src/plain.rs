@@ -1,4 +1,4 @@
-//! Sort and sweep along one axis: the definition that every faster sweep must equal.
+//! Sort and sweep along one axis: the reference that every faster sweep must equal.
 //!
 //! ```text
 //! drop boxes that are empty sets
@@ -6,10 +6,10 @@
 //! sort the boxes by their minimum on that axis
 //! for each box, in that order:
 //!   for each later box whose minimum is not beyond this one's maximum:
-//!     they overlap on the sweep axis; eliminate on the others; ask the filter; hand over
+//!     they overlap on the sweep axis; test the other axes; ask the filter; hand over
 //! ```
-//! Baraff, "Dynamic simulation of non-penetrating rigid bodies" (1992), without the order kept between frames. Cost:
-//! n log n, plus the pairs that overlap on the sweep axis, which is quadratic when everything is at one height.
+//! Baraff, "Dynamic simulation of non-penetrating rigid bodies" (1992), without keeping the order between frames. Cost:
+//! n log n, plus the pairs that overlap on the sweep axis, which is quadratic if all boxes do.
 
 use crate::pair::{PairId, TooManyPairs};
 use asunder_geometry::Bounds;
@@ -80,7 +80,7 @@ impl PlainSweep {
         Ok(())
     }
 
-    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in no promised order, until it
+    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in unspecified order, until it
     /// breaks off. For outputs that are too long to keep.
     pub fn visit<B: Bounds>(
         &mut self,
@@ -117,7 +117,7 @@ fn widest_axis<B: Bounds>(boxes: &[B]) -> usize {
         for one in boxes {
             let (low, high) = one.interval(axis);
             let center = f64::from(low) * 0.5 + f64::from(high) * 0.5;
-            // Unbounded boxes have no centre, and would drown the rest.
+            // Unbounded boxes have no centre, and would make the variance infinite.
             if center.is_finite() {
                 count += 1.0;
                 sum += center;

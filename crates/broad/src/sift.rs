@@ -1,15 +1,15 @@
-//! What passes of a list, in its order: on several threads where it is long.
+//! Filters a list in order, on several threads where it is long.
 
-/// Below this many, handing some to another thread costs more than it saves.
+/// For fewer items, another thread costs more than it saves.
 #[cfg(feature = "parallel")]
 const MIN_PARALLEL: usize = 8192;
 
-/// How many a thread looks at in one go, at most: another one that was asleep comes late, and takes what is left.
+/// Most items that a thread filters in one go: another thread that was asleep joins late, and takes what is left.
 #[cfg(feature = "parallel")]
 const AT_ONCE: usize = 2048;
 
-/// Writes what passes of one list to the front of another, of the same length; says how much that is. Which thread asks
-/// changes nothing.
+/// Writes the items of one list that pass to the front of another list of the same length; returns how many. The result
+/// does not depend on the threads.
 pub(crate) fn sift<T: Copy + Send + Sync>(
     from: &[T],
     into: &mut [T],
@@ -44,7 +44,7 @@ fn sift_by_halves<T: Copy + Send + Sync>(
 fn sift_at_once<T: Copy>(from: &[T], into: &mut [T], passes: &impl Fn(T) -> bool) -> usize {
     let mut passed = 0;
     for &item in from {
-        // Written down in any case: no branch that nobody can guess.
+        // Written unconditionally: the branch would be unpredictable.
         into[passed] = item;
         passed += usize::from(passes(item));
     }

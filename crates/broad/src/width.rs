@@ -1,26 +1,26 @@
-//! One kernel, compiled for any processor and once more for wider vectors.
+//! Compiles kernels twice: for any processor, and for wider vectors.
 
 use crate::index::wide::EightBoxes;
 use crate::sweep::wide::SixteenGaps;
 
-/// How wide vectors are. A value is the proof that the processor has them.
+/// A vector width. A value of such a type proves that the processor has it.
 pub(crate) trait Width: Copy + SixteenGaps + EightBoxes {}
 
-/// What every processor has: loops over lanes, as vectors of whatever width the compiler may count on.
+/// For every processor: loops over lanes, which the compiler turns into vectors of the width it may assume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
 impl Width for Portable {}
 
-/// Code that is worth compiling twice. Both give the same results in the same order.
+/// Code that is worth compiling twice. Both versions give the same results in the same order.
 pub(crate) trait Kernel {
-    /// What it gives.
+    /// The result.
     type Output;
-    /// Does the work. To be inlined always, or it is compiled once only.
+    /// Does the work. Must be `#[inline(always)]`, or it is compiled only once.
     fn run<W: Width>(self, width: W) -> Self::Output;
 }
 
-/// Runs the kernel as wide as the processor can.
+/// Runs the kernel at the widest width that the processor has.
 #[inline(always)]
 pub(crate) fn widest<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
@@ -45,7 +45,7 @@ mod avx2 {
     impl Width for Avx2 {}
 
     impl Avx2 {
-        /// The only way to one. None with the feature `portable`.
+        /// The only way to get a value. Always `None` with the feature `portable`.
         #[inline]
         pub(crate) fn detect() -> Option<Self> {
             use std::arch::is_x86_feature_detected as has;
@@ -54,7 +54,7 @@ mod avx2 {
 
         #[inline]
         pub(super) fn run<K: Kernel>(self, kernel: K) -> K::Output {
-            // SAFETY: this value says that the processor has both features, and they are all that `run_wide` needs.
+            // SAFETY: this value proves that the processor has both features, and `run_wide` needs no others.
             unsafe { run_wide(kernel, self) }
         }
     }

@@ -1,4 +1,4 @@
-//! Axis-aligned boxes and the elimination test.
+//! Axis-aligned boxes and their overlap test.
 
 use glam::{Vec2, Vec3};
 
@@ -8,7 +8,7 @@ mod sealed {
     impl Sealed for super::Aabb3 {}
 }
 
-/// What a broad phase may ask of a box, in either dimension. Sealed: [`Aabb2`] and [`Aabb3`] are all there is.
+/// What a broad phase needs of a box, in either dimension. Sealed: only [`Aabb2`] and [`Aabb3`] implement it.
 ///
 /// ```
 /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
@@ -23,29 +23,27 @@ mod sealed {
 pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Sealed + 'static {
     /// Number of axes.
     const AXES: usize;
-    /// The same boxes, of the type that they are: for what is compiled once for each, and not again wherever it is
-    /// called.
+    /// The same boxes as a concrete type, for code that is compiled once for each type, and not again in every caller.
     #[doc(hidden)]
     fn list(boxes: &[Self]) -> BoxList<'_>;
     /// A box that overlaps nothing, itself included.
     const NOTHING: Self;
-    /// Least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
+    /// The least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
     fn interval(&self, axis: usize) -> (f32, f32);
-    /// Least and greatest corner in space, in metres; a box of the plane lies at height 0.
+    /// The minimum and maximum corner in space, in metres; a box in the plane has z = 0.
     fn corners(&self) -> ([f32; 3], [f32; 3]);
     /// Whether the box is a set of points: no NaN, no minimum above its maximum.
     fn is_valid(&self) -> bool;
-    /// The elimination test: whether the two closed boxes share a point. Invalid boxes share none.
+    /// Whether the two closed boxes share a point, found by elimination. Invalid boxes share none.
     #[inline]
     fn overlaps(&self, other: &Self) -> bool {
         self.is_valid() && other.is_valid() && self.overlaps_valid(other)
     }
-    /// The same of two boxes that are valid: what it says of others means nothing. No branch.
+    /// The same for two valid boxes, without branches; meaningless for others.
     fn overlaps_valid(&self, other: &Self) -> bool;
-    /// Whether the other box lies in this one: none of its bounds is beyond. The empty [`Bounds::NOTHING`] lies in
-    /// every box.
+    /// Whether the other box lies within this one. The empty [`Bounds::NOTHING`] lies within every box.
     fn encloses(&self, other: &Self) -> bool;
-    /// The box with all bounds moved outwards by so many metres, each rounded once.
+    /// The box with all sides moved outwards by so many metres, each rounded once.
     fn widened(&self, metres: f32) -> Self;
 }
 
@@ -53,9 +51,9 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum BoxList<'a> {
-    /// Of the plane.
+    /// Boxes in the plane.
     Plane(&'a [Aabb2]),
-    /// Of space.
+    /// Boxes in space.
     Space(&'a [Aabb3]),
 }
 
@@ -72,9 +70,9 @@ pub enum BoxList<'a> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb2 {
-    /// Least corner.
+    /// Minimum corner.
     pub min: Vec2,
-    /// Greatest corner.
+    /// Maximum corner.
     pub max: Vec2,
 }
 
@@ -91,21 +89,20 @@ pub struct Aabb2 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb3 {
-    /// Least corner.
+    /// Minimum corner.
     pub min: Vec3,
-    /// Greatest corner.
+    /// Maximum corner.
     pub max: Vec3,
 }
 
 impl Aabb2 {
-    /// A box from its least and greatest corner. No check: see the type for what an inverted one means.
+    /// A box from its minimum and maximum corner. Not checked: see the type for the meaning of an inverted one.
     #[inline]
     pub const fn new(min: Vec2, max: Vec2) -> Self {
         Self { min, max }
     }
 
-    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers
-    /// are left out.
+    /// The least box around points, in metres; [`Bounds::NOTHING`] if there are none. NaN coordinates are left out.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Bounds, glam::Vec2};
@@ -115,19 +112,20 @@ impl Aabb2 {
     /// ```
     pub fn from_points(points: impl IntoIterator<Item = Vec2>) -> Self {
         points.into_iter().fold(Self::NOTHING, |Self { min, max }, point| Self {
-            // Not by `min` and `max`, which may make of no number what the platform likes.
+            // Not by `min` and `max`, whose results for NaN depend on the platform.
             min: Vec2::select(point.cmplt(min), point, min),
             max: Vec2::select(point.cmpgt(max), point, max),
         })
     }
 
-    /// The elimination test (four comparisons): eliminate the pair as soon as one axis parts it.
+    /// Whether the closed boxes share a point, by elimination (four comparisons): as soon as one axis separates the
+    /// pair, it is done.
     #[inline]
     pub fn overlaps(&self, other: &Self) -> bool {
         Bounds::overlaps(self, other)
     }
 
-    /// Whether the closed box holds the point.
+    /// Whether the closed box contains the point.
     #[inline]
     pub fn contains(&self, point: Vec2) -> bool {
         self.min.x <= point.x && point.x <= self.max.x && self.min.y <= point.y && point.y <= self.max.y
@@ -139,8 +137,8 @@ impl Aabb2 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of
-    /// a half-space. No overflow: corners may be as far out as f32 goes.
+    /// The centre, half way between both corners, in metres; 0 along an axis on which the box is infinite on both
+    /// sides, like that of a half-space. Does not overflow, however far out the corners are.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, glam::Vec2};
@@ -150,17 +148,17 @@ impl Aabb2 {
     #[inline]
     pub fn center(&self) -> Vec2 {
         let center = self.min * 0.5 + self.max * 0.5;
-        // Where it has no end on either side, both halves cancel to no number.
+        // If it is infinite on both sides, the halves add up to NaN.
         Vec2::select(center.is_nan_mask(), Vec2::ZERO, center)
     }
 
-    /// Half of its width along each axis, in metres; below zero along an axis on which its corners are swapped.
+    /// Half of its width along each axis, in metres; negative along an axis on which its corners are swapped.
     #[inline]
     pub fn half_extents(&self) -> Vec2 {
         self.max * 0.5 - self.min * 0.5
     }
 
-    /// What both have in common; `None` where they share no point.
+    /// The intersection of both; `None` if they share no point.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, glam::Vec2};
@@ -175,14 +173,13 @@ impl Aabb2 {
 }
 
 impl Aabb3 {
-    /// A box from its least and greatest corner. No check: see the type for what an inverted one means.
+    /// A box from its minimum and maximum corner. Not checked: see the type for the meaning of an inverted one.
     #[inline]
     pub const fn new(min: Vec3, max: Vec3) -> Self {
         Self { min, max }
     }
 
-    /// The least box around points, in metres. Around none it is [`Bounds::NOTHING`]; coordinates that are no numbers
-    /// are left out.
+    /// The least box around points, in metres; [`Bounds::NOTHING`] if there are none. NaN coordinates are left out.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
@@ -192,19 +189,20 @@ impl Aabb3 {
     /// ```
     pub fn from_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::NOTHING, |Self { min, max }, point| Self {
-            // Not by `min` and `max`, which may make of no number what the platform likes.
+            // Not by `min` and `max`, whose results for NaN depend on the platform.
             min: Vec3::select(point.cmplt(min), point, min),
             max: Vec3::select(point.cmpgt(max), point, max),
         })
     }
 
-    /// The elimination test (six comparisons): eliminate the pair as soon as one axis parts it.
+    /// Whether the closed boxes share a point, by elimination (six comparisons): as soon as one axis separates the
+    /// pair, it is done.
     #[inline]
     pub fn overlaps(&self, other: &Self) -> bool {
         Bounds::overlaps(self, other)
     }
 
-    /// Whether the closed box holds the point.
+    /// Whether the closed box contains the point.
     #[inline]
     pub fn contains(&self, point: Vec3) -> bool {
         self.min.x <= point.x
@@ -221,8 +219,8 @@ impl Aabb3 {
         Self { min: self.min.min(other.min), max: self.max.max(other.max) }
     }
 
-    /// Half way between both corners, in metres; 0 along an axis on which the box has no end on either side, as that of
-    /// a half-space. No overflow: corners may be as far out as f32 goes.
+    /// The centre, half way between both corners, in metres; 0 along an axis on which the box is infinite on both
+    /// sides, like that of a half-space. Does not overflow, however far out the corners are.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, glam::Vec3};
@@ -232,17 +230,17 @@ impl Aabb3 {
     #[inline]
     pub fn center(&self) -> Vec3 {
         let center = self.min * 0.5 + self.max * 0.5;
-        // Where it has no end on either side, both halves cancel to no number.
+        // If it is infinite on both sides, the halves add up to NaN.
         Vec3::select(center.is_nan_mask(), Vec3::ZERO, center)
     }
 
-    /// Half of its width along each axis, in metres; below zero along an axis on which its corners are swapped.
+    /// Half of its width along each axis, in metres; negative along an axis on which its corners are swapped.
     #[inline]
     pub fn half_extents(&self) -> Vec3 {
         self.max * 0.5 - self.min * 0.5
     }
 
-    /// What both have in common; `None` where they share no point.
+    /// The intersection of both; `None` if they share no point.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, glam::Vec3};
@@ -371,7 +369,7 @@ mod tests {
         let mut broken = unit;
         broken.max.y = f32::NAN;
         assert!(!unit.overlaps(&broken) && !broken.overlaps(&broken));
-        // Inverted, yet every one of the six comparisons holds: only the explicit check refuses it.
+        // Inverted, yet every one of the six comparisons holds: only the explicit check rejects it.
         let inverted = Aabb3::new(Vec3::splat(0.6), Vec3::splat(0.4));
         assert!(!unit.overlaps(&inverted) && !inverted.overlaps(&unit));
     }

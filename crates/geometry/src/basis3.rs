@@ -1,11 +1,11 @@
-//! Rotations in f64, as the three images of the axes.
+//! Rotations in f64, as the images of the three axes.
 
 use glam::DVec3;
 
-/// conjugate(p) q: the turn from one rotation to another, as the first sees it.
+/// conjugate(p) q: the rotation from one to another, in the axes of the first.
 ///
-/// Products of f32 are exact in f64, so that equal rotations cancel to the last bit; pairs first, so that each
-/// component is rounded twice.
+/// Products of f32 are exact in f64, so that equal rotations cancel to the last bit. Summed in pairs, so that each
+/// component is rounded only twice.
 #[inline(always)]
 pub(crate) fn turn_between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f64; 4] {
     [
@@ -16,10 +16,9 @@ pub(crate) fn turn_between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f
     ]
 }
 
-/// A rotation as the three images of the coordinate axes, in f64.
+/// A rotation as the images of the three coordinate axes, in f64.
 ///
-/// Our own products, in a fixed order of summation: glam's matrix code sums in an order that depends on the
-/// processor.
+/// Its products are written out in a fixed order of summation: that of glam's matrix code depends on the processor.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, glam::DVec3};
@@ -39,9 +38,9 @@ pub struct Basis3 {
 }
 
 impl Basis3 {
-    /// The axes of one rotation as seen from another: of quaternions x, y, z, w of any length but zero, with the
-    /// values of f32 numbers. [`Pose3::basis_from`](crate::Pose3::basis_from) is made of it; it stands alone for those
-    /// that hold many rotations side by side.
+    /// The axes of one rotation in those of another, from quaternions x, y, z, w of any length but zero whose
+    /// components are f32 values. [`Pose3::basis_from`](crate::Pose3::basis_from) uses it; it is public for code that
+    /// keeps rotations in arrays of its own.
     ///
     /// ```
     /// use asunder_geometry::Basis3;
@@ -53,7 +52,7 @@ impl Basis3 {
         Self::of_quaternion(turn_between(from, to))
     }
 
-    /// M(q)/|q|^2 of a quaternion x, y, z, w of any length but zero, with the values of f32 numbers.
+    /// M(q)/|q|^2 of a quaternion x, y, z, w of any length but zero whose components are f32 values.
     #[inline(always)]
     pub fn of_quaternion([x, y, z, w]: [f64; 4]) -> Self {
         // The least product of two f32 squared is 2e-180: no component can underflow here, and the largest cannot
@@ -73,8 +72,8 @@ impl Basis3 {
     /// No rotation.
     pub const UNIT: Self = Self { x: DVec3::X, y: DVec3::Y, z: DVec3::Z };
 
-    /// How far the tips of unit vectors went from another rotation to this one, at most: of rotation matrices, the
-    /// Frobenius norm of the difference over the root of two. Right to some units of 2^-53.
+    /// The greatest distance that the tip of a unit vector moves from another rotation to this one: for rotation
+    /// matrices, the Frobenius norm of the difference over the root of two. Right to some units of 2^-53.
     ///
     /// ```
     /// use asunder_geometry::Basis3;
@@ -89,19 +88,19 @@ impl Basis3 {
         (squared * 0.5).sqrt()
     }
 
-    /// A local vector turned into the outer frame.
+    /// Rotates a local vector into the outer frame.
     #[inline]
     pub fn turn(&self, v: DVec3) -> DVec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    /// A vector of the outer frame turned into the local one.
+    /// Rotates a vector in the outer frame into the local one.
     #[inline]
     pub fn turn_back(&self, v: DVec3) -> DVec3 {
         DVec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
-    /// This basis as seen from another one: `other`'s inverse times `self`.
+    /// This basis in the axes of another one: `other`'s inverse times `self`.
     #[inline]
     pub fn relative_to(&self, other: &Self) -> Self {
         Self { x: other.turn_back(self.x), y: other.turn_back(self.y), z: other.turn_back(self.z) }

@@ -6,13 +6,13 @@ use crate::pose2::Pose2;
 use crate::radius::{RadiusError, check_round};
 use glam::DVec2;
 
-/// A disc about its own origin, given by its radius in metres: a point with everything within the radius added.
+/// A disc about its own origin, given by its radius in metres: a point expanded by the radius.
 ///
 #[doc = include_str!("../doc/circle.svg")]
 ///
 /// # Costs and limits
-/// The cheapest shape: two circles cost one root, a circle and a half-plane one dot product. A contact is always one
-/// point. Radius 1e-6 to 1e6 m.
+/// The cheapest shape: two circles take one square root, a circle and a half-plane one dot product. A contact is always
+/// one point. Radius 1e-6 to 1e6 m.
 ///
 /// ```
 /// use asunder_geometry::{Circle, glam::DVec2};
@@ -26,7 +26,7 @@ pub struct Circle {
 }
 
 impl Circle {
-    /// A point, for questions about points; no body may be one.
+    /// A circle of radius zero, for queries about points; not for bodies.
     #[doc(hidden)]
     pub const POINT: Self = Self { radius: 0.0 };
 
@@ -45,7 +45,7 @@ impl Circle {
         self.radius
     }
 
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         point.into().length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }

@@ -1,9 +1,10 @@
-//! Clones that are written over others.
+//! `Clone` implementations that reuse the memory of the target.
 
-/// Makes a type `Clone`, field by field: what is copied, in the memory that there is, as derived clones do not; and
-/// what stays each one's own, since no output depends on it. All fields are named, so that none is forgotten.
+/// Implements `Clone` for a type, field by field. Listed first are the fields to copy, reusing the target's memory
+/// (which derived clones do not); after `but`, those that are not copied, since no output depends on them. All fields
+/// must be listed, so that none is forgotten.
 ///
-/// Where one value is written over another of the same type by other means than `Clone`, `from => to` does the same.
+/// The form `from => to` copies one value over another of the same type by other means than `Clone`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! copied {

@@ -1,4 +1,4 @@
-//! What is left of a shape without its rounding: points, segments, polygons, polyhedra.
+//! The cores of shapes, without their rounding: points, segments, polygons, polyhedra.
 
 use crate::cuboid::Cuboid;
 use crate::hull::Hull;
@@ -11,7 +11,7 @@ use core::cell::OnceCell;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use std::sync::LazyLock;
 
-/// A few values here, or many elsewhere.
+/// A few values held here, or a slice of values held elsewhere.
 #[derive(Clone, Debug)]
 enum Held<'a, T, const N: usize> {
     Few([T; N], usize),
@@ -65,7 +65,7 @@ pub struct Core2<'a> {
 #[derive(Clone, Debug)]
 pub struct Core3<'a>(Kept<'a>);
 
-/// Where a core in space is: hulls keep all of theirs, of others it is made where it is asked for.
+/// Where the data of a core in space are: a hull keeps its own, for other shapes they are made on demand.
 #[allow(
     clippy::large_enum_variant,
     reason = "it lives on the stack for one pair, and a frame allocates nothing"
@@ -84,10 +84,10 @@ struct Few<'a> {
     normals: Held<'a, DVec3, 2>,
     heights: Held<'a, f64, 6>,
     face_octets: Held<'a, FaceOctet, 1>,
-    /// Half extents of a cuboid, whose edges are made when they are asked for: most pairs never do, and they are large.
+    /// Half extents of a cuboid. Its edges are made only on demand: they are large, and most pairs do not need them.
     cuboid: Option<Vec3>,
     edge_octets: OnceCell<[EdgeOctet; 2]>,
-    /// Those of a segment or a triangle, as the octets of a cuboid.
+    /// Arcs of a segment or a triangle, made on demand as well.
     arcs: OnceCell<[EdgeArc; 3]>,
     center: Vec3,
     inner_radius: f32,
@@ -117,7 +117,7 @@ impl<'a> Core2<'a> {
         Self { vertices: Held::Few([from, to, from, from], 2), normals: Held::Few([normal, -normal], 2) }
     }
 
-    /// The vertices, in metres: of a polygon, counter-clockwise.
+    /// The vertices, in metres; those of a polygon counter-clockwise.
     #[inline]
     pub fn vertices(&self) -> &[Vec2] {
         self.vertices.as_slice()
@@ -130,7 +130,7 @@ impl<'a> Core2<'a> {
     }
 }
 
-/// What all cuboids share.
+/// Data that all cuboids share.
 struct Cube {
     arcs: Box<[EdgeArc]>,
     octets: [EdgeOctet; 2],
@@ -162,7 +162,7 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The vertices eight by eight; none where there are no vertices.
+    /// The vertices in octets; none if there are no vertices.
     #[inline]
     pub fn vertex_octets(&self) -> &[VertexOctet] {
         match &self.0 {
@@ -180,7 +180,7 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// How far the vertices reach along each face's normal, in metres from the shape's origin.
+    /// The support height of the vertices along each face's normal, in metres from the shape's origin.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -201,7 +201,7 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The faces eight by eight, in f32.
+    /// The faces in octets, in f32.
     #[inline]
     pub fn face_octets(&self) -> &[FaceOctet] {
         match &self.0 {
@@ -210,8 +210,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The edges eight by eight, by the faces beside them; none of what has no faces, nor of a triangle, whose
-    /// faces are back to back.
+    /// The edges in octets, by the faces beside them; none for a core without faces, nor for a triangle, whose faces
+    /// are back to back.
     #[inline]
     pub fn edge_octets(&self) -> &[EdgeOctet] {
         match &self.0 {
@@ -220,7 +220,7 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The edges on the Gauss map, in the order of the topology's edges.
+    /// The arcs of the edges on the Gauss map, in the order of the topology's edges.
     #[inline]
     pub fn arcs(&self) -> &[EdgeArc] {
         match &self.0 {
@@ -238,8 +238,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// Radius in metres of a sphere about the centre that lies inside the core, rounded down. Where the centre is
-    /// not inside, minus a distance within which there is a point of the core.
+    /// Radius in metres of a sphere about the centre that lies inside the core, rounded down. If the centre is not
+    /// inside: minus a distance within which there is a point of the core.
     ///
     /// ```
     /// use asunder_geometry::{Segment3, Shape3, glam::Vec3};
@@ -256,8 +256,8 @@ impl<'a> Core3<'a> {
     }
 
     /// Half of a segment about the centre, in metres, on which a ball of [`ARM_SHARE`](crate::tolerance::ARM_SHARE) of
-    /// the inner radius stays inside the core; zero where there is none. A plank holds more balls than the one in its
-    /// middle.
+    /// the inner radius stays inside the core; zero if there is none. A plank, say, has room for such balls beside the
+    /// one in its middle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -273,8 +273,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The greatest absolute value of any vertex' coordinate, in metres: what the rounding of a product with it is
-    /// relative to.
+    /// The greatest absolute coordinate of any vertex, in metres: rounding errors of products with vertices are
+    /// relative to it.
     #[inline]
     pub fn extent(&self) -> f32 {
         match &self.0 {
@@ -283,8 +283,8 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// The half extents, in metres, if it is the core of a cuboid: corner `i` is on the upper side of axis `k` where
-    /// bit `k` of `i` is set.
+    /// The half extents, in metres, if it is the core of a cuboid. Vertex `i` is on the upper side of axis `k` if bit
+    /// `k` of `i` is set.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -301,7 +301,7 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// How vertices, edges and faces meet.
+    /// How vertices, edges and faces are connected.
     #[inline]
     pub fn topology(&self) -> &'a Topology {
         match &self.0 {
@@ -347,7 +347,7 @@ impl<'a> Few<'a> {
         }
     }
 
-    /// A cuboid's are those of all; of what has fewer, up to three are made when they are asked for.
+    /// The shared arcs of a cuboid; otherwise up to three, made on demand.
     fn arcs(&self) -> &[EdgeArc] {
         if self.cuboid.is_some() {
             return &CUBE.arcs;
@@ -361,13 +361,13 @@ impl<'a> Few<'a> {
         arcs.get(..edges).unwrap_or(arcs)
     }
 
-    /// Those of a cuboid; of what has fewer, every edge is looked at.
+    /// The octets of a cuboid; for cores with fewer edges there are none, as kernels test each edge.
     fn edge_octets(&self) -> &[EdgeOctet] {
         let Some(half) = self.cuboid else { return &[] };
         self.edge_octets.get_or_init(|| EdgeOctet::of_cuboid(&CUBE.octets, half))
     }
 
-    /// A point or a segment; nothing at all where there are no vertices.
+    /// A point or a segment; an empty core if there are no vertices.
     fn without_faces(vertices: &[Vec3], topology: &'a Topology, shape: &Shape3) -> Self {
         let first = vertices.first().copied().unwrap_or(Vec3::ZERO);
         let eight = core::array::from_fn(|i| vertices.get(i).copied().unwrap_or(first));
@@ -417,7 +417,7 @@ impl<'a> Few<'a> {
     }
 }
 
-/// How far a ball in the middle of a cuboid has room along the longest of its axes.
+/// How far the inscribed ball of a cuboid can be moved along its longest axis.
 fn longest_arm(half: Vec3) -> Vec3 {
     let (longest, room) = (half.max_element(), half.max_element() - half.min_element());
     if half.x == longest {
@@ -429,7 +429,7 @@ fn longest_arm(half: Vec3) -> Vec3 {
     }
 }
 
-/// How far the centre of a shape without volume may lie beside it, below zero: an f32 rounding of each coordinate.
+/// Minus the distance that the centre of a shape without volume may lie off it: an f32 rounding of each coordinate.
 fn beside_center(shape: &Shape3) -> f32 {
     let center = shape.center().abs().element_sum();
     if center == 0.0 { 0.0 } else { -2.0 * f32::EPSILON * center }

@@ -1,8 +1,8 @@
-//! Steps of the hull builder, so that tests can count what they cannot time: as `counted` of the narrow phase, of which
-//! this crate knows nothing.
+//! Counts steps of the hull builder, as tests can count but not time it: like `counted` of the narrow phase, which this
+//! crate cannot use.
 //!
-//! A step is one point asked about one triangle, or one corner of a facet put in order. In what is shipped there is no
-//! counter.
+//! A step is one point tested against one triangle, or one corner of a facet sorted. There is no counter outside of
+//! tests.
 
 /// Counts one step, in tests.
 #[cfg(not(test))]

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 /// -x, +x, -y, +y, -z, +z.
 ///
 /// # Costs and limits
-/// Two cuboids cost fifteen axes in closed form; a contact has up to four points. Half extents above zero, however
+/// Two cuboids take fifteen axes in closed form; a contact has up to four points. Half extents above zero, however
 /// thin, and a bounding radius of 1e-6 to 1e6 m.
 ///
 /// ```
@@ -53,8 +53,8 @@ impl Cuboid {
         Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// The same cuboid with everything within `radius` metres added: round corners and edges, and larger by the radius
-    /// on every side. Zero takes the rounding away.
+    /// The same cuboid expanded by `radius` metres on every side, with round edges and corners. Zero removes the
+    /// rounding.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, glam::{DVec3, Vec3}};
@@ -92,7 +92,7 @@ impl Cuboid {
     /// The eight corners; of a rounded cuboid, those of its core.
     #[inline]
     pub fn vertices(&self) -> [Vec3; 8] {
-        // Written out: kernels ask for them a pair, and `from_fn` calls.
+        // Written out, as kernels need them for every pair, and `from_fn` is a call.
         let Vec3 { x, y, z } = self.half_extents;
         [
             Vec3::new(-x, -y, -z),
@@ -124,10 +124,10 @@ impl Cuboid {
         round_down(f64::from(self.half_extents.min_element()) + f64::from(self.radius))
     }
 
-    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
+    /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
-        // The greater of a NaN and zero is zero.
+        // `max` of NaN and zero is zero.
         let beyond = (point.abs() - self.half_extents.as_dvec3()).max(DVec3::ZERO);
         !point.is_nan() && beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }

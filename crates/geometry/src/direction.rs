@@ -1,6 +1,6 @@
 //! Directions, for half-planes, half-spaces and rays.
 
-/// Why a direction was refused.
+/// Why a direction was rejected.
 ///
 /// ```
 /// use asunder_geometry::{DirectionError, HalfSpace, glam::Vec3};
@@ -16,7 +16,7 @@ pub enum DirectionError {
         /// What was given.
         value: f32,
     },
-    /// Zero in every component, and so points nowhere.
+    /// Zero in every component.
     Zero,
 }
 
@@ -33,7 +33,7 @@ impl core::fmt::Display for DirectionError {
 
 impl core::error::Error for DirectionError {}
 
-/// Refuses what is not finite, and zero.
+/// Rejects directions that are not finite, or zero.
 pub(crate) fn check_direction(components: &[f32]) -> Result<(), DirectionError> {
     for (axis, &value) in components.iter().enumerate() {
         if !value.is_finite() {

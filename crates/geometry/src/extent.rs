@@ -1,8 +1,8 @@
-//! What can be wrong with the half extents of a rectangle or a cuboid.
+//! Errors of the half extents of a rectangle or a cuboid.
 
 use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 
-/// Why half extents were refused.
+/// Why half extents were rejected.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, ExtentError, glam::Vec3};

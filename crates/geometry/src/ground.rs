@@ -1,4 +1,4 @@
-//! Ground made of triangles, whatever keeps them.
+//! Ground made of triangles: the common interface of meshes and height fields.
 
 pub(crate) mod bend;
 mod read;
@@ -21,8 +21,8 @@ use tree::{Line, Near};
 
 /// Ground made of numbered triangles: a mesh or a height field.
 ///
-/// Half-edge `i` of a triangle goes from its corner `i` to the next. Vertices have numbers too; equal points of a
-/// mesh have one number.
+/// Half-edge `i` of a triangle goes from its corner `i` to the next. Vertices are numbered, too; equal points of a mesh
+/// share one number.
 ///
 /// ```
 /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
@@ -50,9 +50,9 @@ pub enum Ground<'a> {
     Field(&'a HeightField),
 }
 
-/// Which edges and corners of a triangle may give a contact another normal than the triangle's own: where the ground
-/// bends away from the body there, or ends. It also tells whether an edge bends so low that what is nearest along it
-/// counts as the triangle's own normal. Conservative: a bit that is set may be needless.
+/// Which edges and corners of a triangle may give a contact a normal other than the triangle's: those at which the
+/// ground bends away from the body, or ends. It also says whether some edge has so low a bend that all normals along it
+/// count as the triangle's. Conservative: a bit may be set needlessly.
 ///
 /// ```
 /// use asunder_geometry::Prominent;
@@ -69,7 +69,7 @@ pub struct Prominent(u16);
 impl Prominent {
     /// No edge and no corner.
     pub const NONE: Self = Self(0);
-    /// Every edge and corner, seen from either side, all of them sharp.
+    /// Every edge and corner, seen from either side, none with a low bend.
     pub const ALL: Self = Self(0xFFF);
 
     const LOW_BEND: u16 = 1 << 12;
@@ -90,26 +90,26 @@ impl Prominent {
         1 << (corner % 3 + if is_front { 3 } else { 9 })
     }
 
-    /// This with one edge added, seen from the front or the back.
+    /// Adds one edge, seen from the front or the back.
     #[must_use]
     pub const fn with_edge(self, edge: usize, is_front: bool) -> Self {
         Self(self.0 | Self::edge_bit(edge, is_front))
     }
 
-    /// This with one corner added, seen from the front or the back.
+    /// Adds one corner, seen from the front or the back.
     #[must_use]
     pub const fn with_corner(self, corner: usize, is_front: bool) -> Self {
         Self(self.0 | Self::corner_bit(corner, is_front))
     }
 
-    /// This with the note added that an edge bends low.
+    /// Adds the note that an edge has a low bend.
     #[must_use]
     pub const fn with_low_bend(self) -> Self {
         Self(self.0 | Self::LOW_BEND)
     }
 
-    /// Whether an edge bends by more than rounding, and by no more than two normals that count as one may differ from
-    /// what is between them.
+    /// Whether an edge bends by more than rounding, but by so little that all normals between those of its triangles
+    /// count as equal.
     #[inline]
     pub const fn bends_low(self) -> bool {
         self.0 & Self::LOW_BEND != 0
@@ -141,7 +141,7 @@ impl Prominent {
 }
 
 impl<'a> Ground<'a> {
-    /// The ground that a shape is, if it is one.
+    /// The shape as ground, if it is a mesh or a height field.
     #[inline]
     pub fn of(shape: &'a Shape3) -> Option<Self> {
         match shape {
@@ -151,7 +151,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Whether only its front is solid: where the vertices of a triangle wind counter-clockwise.
+    /// Whether it is solid only from the front, from which the vertices of a triangle wind counter-clockwise.
     #[inline]
     pub fn is_one_sided(self) -> bool {
         match self {
@@ -160,7 +160,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Triangles are numbered below this. Some numbers may have none: holes, and what was dropped.
+    /// The numbers of triangles are below this. Some numbers may have no triangle: holes, and dropped triangles.
     #[inline]
     pub fn triangle_count(self) -> u32 {
         match self {
@@ -169,7 +169,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The corners of a triangle, in metres and local axes; anything for a number without a triangle.
+    /// The corners of a triangle, in metres and local axes; arbitrary for a number without a triangle.
     #[inline]
     pub fn corners(self, triangle: u32) -> [glam::Vec3; 3] {
         match self {
@@ -196,7 +196,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The triangle on the other side of a half-edge, and which of its half-edges that is. `None` where the ground
+    /// The triangle on the other side of a half-edge, and which of its half-edges is the twin. `None` where the ground
     /// ends, where more than two triangles meet, or where two meet that wind differently.
     #[inline]
     pub fn neighbor(self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
@@ -206,7 +206,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Which edges and corners may give other normals than the triangle's own.
+    /// Which edges and corners may give normals other than the triangle's.
     #[inline]
     pub fn prominent(self, triangle: u32) -> Prominent {
         match self {
@@ -215,7 +215,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The least number of the triangles that lie in one plane with this one and hang together with it.
+    /// The patch of a triangle: the least number of the connected triangles that lie in one plane with it.
     #[inline]
     pub fn patch(self, triangle: u32) -> u32 {
         match self {
@@ -224,9 +224,9 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Hands every triangle whose own box overlaps this one, in local axes, to `visitor`, each once, until it breaks
-    /// off. The order is a function of the ground and the box. Cost: logarithmic in the triangles, and linear in those
-    /// that are handed over.
+    /// Hands every triangle whose box overlaps this one, in local axes, to `visitor`, each once, until it breaks off.
+    /// The order depends only on the ground and the box. Cost: logarithmic in the triangles, and linear in those that
+    /// are handed over.
     #[inline]
     pub fn visit_near(self, bounds: &Aabb3, visitor: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
         match self {
@@ -238,9 +238,10 @@ impl<'a> Ground<'a> {
     /// Hands every triangle whose box a moving box meets to `visitor`, each once and roughly in the order of meeting,
     /// up to a limit that `visitor` may lower: it returns the new one.
     ///
-    /// The moving box has its centre at `from` and these half extents, in metres and local axes; zero, for a ray. It
-    /// moves along `direction`, of any length, by `limit` lengths of it. Boxes are widened by more than rounding:
-    /// none is lost. The order is a function of the ground and the question. Nothing is met by what is not finite.
+    /// The moving box has its centre at `from` and half extents `grown`, in metres and local axes; zero for a ray. It
+    /// moves along `direction`, of any length, by `limit` lengths of it. Boxes are widened by more than rounding, so
+    /// that none is missed. The order depends only on the ground and the query. If any number is not finite, nothing is
+    /// met.
     ///
     /// ```
     /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
@@ -266,8 +267,8 @@ impl<'a> Ground<'a> {
         self.meet_along([from, direction], grown, limit, |number, _| visitor(number));
     }
 
-    /// Like [`visit_along`](Self::visit_along), but hands over each triangle's [`corners`](Self::corners) too. Cost: as
-    /// that, with fewer waits for memory.
+    /// Like [`visit_along`](Self::visit_along), but also hands over each triangle's [`corners`](Self::corners), at the
+    /// same cost with fewer cache misses.
     ///
     /// ```
     /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
@@ -294,7 +295,7 @@ impl<'a> Ground<'a> {
         });
     }
 
-    /// The corners of a triangle, where they did not come with its box.
+    /// The corners of a triangle: those that came with its box, or else read.
     #[inline]
     fn known_or_read(self, number: u32, corners: Option<[Vec3; 3]>) -> [Vec3; 3] {
         match corners {
@@ -323,8 +324,8 @@ impl<'a> Ground<'a> {
     }
 
     /// Hands every triangle whose box is within `limit` metres of this one, in local axes, to `visitor`, each once and
-    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. The order is a
-    /// function of the ground and the question.
+    /// roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. The order depends
+    /// only on the ground and the query.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
@@ -343,8 +344,8 @@ impl<'a> Ground<'a> {
         self.meet_nearest(bounds, limit, |number, _| visitor(number));
     }
 
-    /// Like [`visit_nearest`](Self::visit_nearest), but hands over each triangle's [`corners`](Self::corners) too.
-    /// Cost: as that, with fewer waits for memory.
+    /// Like [`visit_nearest`](Self::visit_nearest), but also hands over each triangle's [`corners`](Self::corners), at
+    /// the same cost with fewer cache misses.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};

@@ -7,19 +7,18 @@ use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// Everything on one side of a line through its own origin: a floor without an end.
+/// Everything on one side of a line through its own origin: an infinite floor.
 ///
 #[doc = include_str!("../doc/half_plane.svg")]
 ///
-/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
-/// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
-/// other shape. Two of them overlap unless they look exactly away from each
-/// other, and then have no contact points.
+/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length has no meaning. The body's pose
+/// puts it in place. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other
+/// shape. Two of them overlap unless they face exactly away from each other, and have no contact points.
 ///
 /// # Costs and limits
-/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
-/// body is a candidate for a pair with it, unless its normal is an axis. Its contact anchors are relative to its
-/// position, in f32 as all are: a millimetre is lost 10 km from there, on its side of a contact only.
+/// The cheapest floor: one dot product for each vertex of the other shape. Unless its normal is along an axis, its box
+/// is infinite, so that every other body is a candidate for a pair with it. Its contact anchors are relative to its
+/// position, in f32 like all: 10 km from there they are off by a millimetre, on its side of a contact only.
 ///
 /// ```
 /// use asunder_geometry::{HalfPlane, Pose2, glam::{DVec2, Vec2}};
@@ -58,13 +57,13 @@ impl HalfPlane {
         self.normal.as_dvec2().normalize()
     }
 
-    /// Whether the closed shape holds a local point, in metres; never a NaN.
+    /// Whether the closed shape contains a local point, in metres; false for NaN.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         self.normal.as_dvec2().dot(point.into()) <= 0.0
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards. It is infinite, save where the
-    /// turned normal is one of the axes.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards. It is infinite, except where the
+    /// turned normal is along an axis.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         let normal = pose.rotation().turn(self.normal.as_dvec2());
         let p = pose.position();
@@ -84,19 +83,18 @@ impl HalfPlane {
     }
 }
 
-/// Everything on one side of a plane through its own origin: a floor without an end.
+/// Everything on one side of a plane through its own origin: an infinite floor.
 ///
 #[doc = include_str!("../doc/half_space.svg")]
 ///
-/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length means nothing. Put it in its
-/// place by the body's pose. It has no centre, no size and no mass; tolerances of a pair with it are relative to the
-/// other shape. Two of them overlap unless they look exactly away from each
-/// other, and then have no contact points.
+/// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length has no meaning. The body's pose
+/// puts it in place. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other
+/// shape. Two of them overlap unless they face exactly away from each other, and have no contact points.
 ///
 /// # Costs and limits
-/// The cheapest floor: one dot product for each vertex of the other shape. Its box has no end, so that every other
-/// body is a candidate for a pair with it, unless its normal is an axis. Its contact anchors are relative to its
-/// position, in f32 as all are: a millimetre is lost 10 km from there, on its side of a contact only.
+/// The cheapest floor: one dot product for each vertex of the other shape. Unless its normal is along an axis, its box
+/// is infinite, so that every other body is a candidate for a pair with it. Its contact anchors are relative to its
+/// position, in f32 like all: 10 km from there they are off by a millimetre, on its side of a contact only.
 ///
 /// ```
 /// use asunder_geometry::{HalfSpace, Pose3, glam::{DVec3, Vec3}};
@@ -135,13 +133,13 @@ impl HalfSpace {
         self.normal.as_dvec3().normalize()
     }
 
-    /// Whether the closed shape holds a local point, in metres; never a NaN.
+    /// Whether the closed shape contains a local point, in metres; false for NaN.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         self.normal.as_dvec3().dot(point.into()) <= 0.0
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards. It is infinite, save where the
-    /// turned normal is one of the axes.
+    /// The box around the posed shape, grown by `margin` metres and rounded outwards. It is infinite, except where the
+    /// turned normal is along an axis.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let normal = pose.basis().turn(self.normal.as_dvec3());
         let p = pose.position();

@@ -1,16 +1,16 @@
-//! How a body moves in the plane from one pose to the next.
+//! Motions in the plane: how a body moves from one pose to another.
 
 use crate::pose2::{Pose2, Rotation2};
 use crate::pose3::{PoseError, check_position};
 use crate::tolerance::MAX_POSITION;
 use glam::DVec2;
 
-/// A motion in the plane: a displacement in metres and, optionally, a rotation to be reached.
+/// A motion in the plane: a displacement in metres and, if it turns, the rotation at the end.
 ///
-/// The position moves along a straight line at constant speed. The rotation takes the shorter way round, by halves:
-/// first to the rotation half way, then on to the end. In each half cosine and sine are interpolated along the
-/// chord and made of unit length again: no trigonometry, and at most a quarter turn, in which the speed changes by
-/// a factor of two at most. Where both rotations are exactly opposite, the way leads counter-clockwise.
+/// The position moves along a straight line at constant speed. The rotation takes the shorter way round, in two halves:
+/// to the rotation half way, then on to the end. In each half, cosine and sine are interpolated along the chord and
+/// normalised: no trigonometry, and a half is at most a quarter turn, in which the speed changes by a factor of two at
+/// most. Between exactly opposite rotations, it turns counter-clockwise.
 ///
 /// ```
 /// use asunder_geometry::{Motion2, Pose2, Rotation2, glam::DVec2};
@@ -31,8 +31,8 @@ impl Motion2 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec2::ZERO, to: None };
 
-    /// A motion by a displacement in metres (`Vec2`, `DVec2`, or an array of f64), which ends in a given rotation: not
-    /// the turn from the body's own, but where it ends. Without turning: [`shift`](Self::shift).
+    /// A displacement in metres (`Vec2`, `DVec2`, or an array of f64), and the absolute rotation at the end (not one
+    /// relative to the start). For a motion without rotation: [`shift`](Self::shift).
     ///
     /// # Errors
     /// A displacement that is not finite, or beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an axis.
@@ -40,7 +40,7 @@ impl Motion2 {
         Ok(Self { to: Some(to), ..Self::shift(displacement)? })
     }
 
-    /// A motion by a displacement in metres, which keeps the rotation that the body has.
+    /// A displacement in metres. The body keeps its rotation.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2, glam::DVec2};
@@ -59,11 +59,10 @@ impl Motion2 {
         Ok(Self { displacement, to: None })
     }
 
-    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter
-    /// way.
+    /// The motion from one pose to another, such as a solver's step afterwards. It turns the shorter way.
     ///
-    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the
-    /// same rotation it is a shift.
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Between poses with
+    /// the same rotation it is a shift.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2};
@@ -82,12 +81,12 @@ impl Motion2 {
         Ok(Self { to: (bits(from) != bits(to)).then_some(to.rotation()), ..motion })
     }
 
-    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second
+    /// The motion of a body with constant velocities for a time: metres per second, and radians per second
     /// counter-clockwise about its position.
     ///
-    /// It ends where the body would, by `libm`, rounded to f32: the same bits on every platform. Turns of less than
-    /// 1e-7 rad a step are lost to f32: it stands still, or turns by up to twice as much. On the way it turns the
-    /// shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
+    /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every
+    /// platform. A turn of less than 1e-7 rad in a step may be lost, or doubled. On the way it turns the shorter way,
+    /// so with half a turn or more in one step a wheel appears to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, glam::{DVec2, Vec2}};
@@ -102,7 +101,8 @@ impl Motion2 {
     /// ```
     ///
     /// # Errors
-    /// What is not finite, and a displacement beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an axis.
+    /// Numbers that are not finite, and a displacement beyond [`MAX_POSITION`](crate::tolerance::MAX_POSITION) on an
+    /// axis.
     pub fn of_velocities(
         from: &Pose2,
         linear: impl Into<DVec2>,
@@ -118,24 +118,26 @@ impl Motion2 {
         Self::new(displacement, Rotation2::new(end.x as f32, end.y as f32)?)
     }
 
-    /// How far the position moves, in metres.
+    /// The displacement of the whole motion, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec2 {
         self.displacement
     }
 
-    /// The rotation to be reached, if any.
+    /// The rotation at the end; `None` for a motion that does not turn.
     #[inline]
     pub const fn rotation(&self) -> Option<Rotation2> {
         self.to
     }
 
-    /// The pose after a share of the motion, 0 to 1; what is below counts as 0, NaN too, what is above as 1.
+    /// The pose of a body that starts at `from` after a fraction of the motion.
     ///
-    /// 0 gives `from` bit for bit. 1 gives the end pose bit for bit, which is where the position plus the
-    /// displacement rounds to, in the rotation to be reached. An end beyond the range of poses is moved to the edge
-    /// of it, axis by axis, and the motion leads straight there. In between the position is off by some roundings
-    /// of f64, the rotation by less than 1e-7 rad. Cost: constant.
+    /// - At 0 and below, or for NaN, it is `from` bit for bit.
+    /// - At 1 and above the position is the rounded sum, and the rotation the one at the end, bit for bit.
+    /// - In between the position is off by some roundings of f64, the rotation by less than 1e-7 rad.
+    /// - An end beyond the range of poses is clamped, axis by axis, and the motion leads straight to there.
+    ///
+    /// Cost: constant.
     pub fn pose_at(&self, from: &Pose2, fraction: f64) -> Pose2 {
         if fraction.is_nan() || fraction <= 0.0 {
             return *from;
@@ -148,12 +150,12 @@ impl Motion2 {
         };
         let limit = DVec2::splat(MAX_POSITION);
         let place = if fraction < 1.0 { start + (end - start) * fraction } else { end };
-        // A position in range is never refused.
+        // A position in range is never rejected.
         Pose2::new(place.clamp(-limit, limit), rotation).unwrap_or(*from)
     }
 
-    /// An upper bound on the angular speed, in radians per whole motion: at most 1.28 times that of an
-    /// even turn. Zero where the rotation stays. Cost: constant.
+    /// An upper bound on the angular speed, in radians per whole motion: at most 1.28 times that of an even turn. Zero
+    /// if it does not turn. Cost: constant.
     ///
     /// ```
     /// use asunder_geometry::{Motion2, Pose2, Rotation2};
@@ -166,13 +168,13 @@ impl Motion2 {
         let Some(to) = self.to.filter(|to| *to != from.rotation()) else { return 0.0 };
         let (first, last) = (vector(from.rotation()), vector(to));
         let middle = half_way(first, last);
-        // Along a chord the speed is the area it spans, over the square of its distance from the origin.
+        // The speed along a chord is the area it spans over its squared distance from the origin.
         let speed = |from: DVec2, to: DVec2| {
             let nearest = (from + to) * 0.5;
             from.perp_dot(to).abs() / nearest.length_squared()
         };
-        // Twice for the two halves; lengths are one up to the rounding of f32, and so the nearest point is the
-        // middle up to that.
+        // Twice, as each half takes half the time. Lengths are one up to the rounding of f32, and so the nearest point
+        // is the middle up to that.
         2.0 * speed(first, middle).max(speed(middle, last)) * (1.0 + 1e-6)
     }
 
@@ -186,10 +188,10 @@ fn vector(rotation: Rotation2) -> DVec2 {
     DVec2::new(f64::from(rotation.cos()), f64::from(rotation.sin()))
 }
 
-/// The unit vector half way from one to the other, the shorter way round; counter-clockwise where both ways are as
+/// The unit vector half way from one to the other, the shorter way round; counter-clockwise if both ways are equally
 /// long.
 ///
-/// It is along the sum, and square to the difference: each is taken where it is the longer of the two.
+/// It is along the sum, and perpendicular to the difference; the longer of the two is used.
 fn half_way(from: DVec2, to: DVec2) -> DVec2 {
     if from.dot(to) >= 0.0 {
         return (from + to).normalize();
@@ -199,7 +201,7 @@ fn half_way(from: DVec2, to: DVec2) -> DVec2 {
     if from.perp_dot(to) >= 0.0 { left } else { -left }
 }
 
-/// The rotation at a share of the way, strictly between 0 and 1.
+/// The rotation at a fraction of the way, strictly between 0 and 1.
 fn between(from: Rotation2, to: Rotation2, fraction: f64) -> Rotation2 {
     if from == to {
         return from;
@@ -214,7 +216,7 @@ fn between(from: Rotation2, to: Rotation2, fraction: f64) -> Rotation2 {
     stored((start + (end - start) * share).normalize(), from)
 }
 
-/// A unit vector as a rotation. It is never refused.
+/// A unit vector as a rotation. It is never rejected.
 fn stored(unit: DVec2, instead: Rotation2) -> Rotation2 {
     Rotation2::new(unit.x as f32, unit.y as f32).unwrap_or(instead)
 }

@@ -1,22 +1,22 @@
-//! How a body moves in space from one pose to another, and how fast it turns on the way.
+//! Motions in space: how a body moves from one pose to another, and how fast it turns on the way.
 
 use crate::basis3::Basis3;
 use crate::pose3::{Pose3, PoseError, check_position, check_rotation};
 use crate::tolerance::MAX_POSITION;
 use glam::{DVec3, Quat};
 
-/// A motion in space: a displacement in metres and, if it turns, the rotation that is reached at the end.
+/// A motion in space: a displacement in metres and, if it turns, the rotation at the end.
 ///
-/// Where it starts is no part of it. At a fraction t, from 0 to 1, a body that starts at position p and rotation q
-/// is at
+/// The start is not part of it. At a fraction t, from 0 to 1, a body that starts at position p and rotation q is at
 ///
 /// ```text
 /// position  p + t d
-/// rotation  (1 - t) q + t q'      q' = the rotation to be reached, as long as q, of its two signs the nearer one
+/// rotation  (1 - t) q + t q'      q' = the rotation at the end, scaled to the length of q, with the nearer sign
 /// ```
 ///
-/// which as M(q)/|q|^2 is a rotation without any trigonometry: about one axis, never by more than half a turn, a little
-/// faster in the middle than at the ends (a quarter turn by 17 %, half a turn by a factor of 2).
+/// which, taken as the matrix M(q)/|q|^2, is a rotation without any trigonometry: about one axis, by at most half a
+/// turn, and a little faster in the middle than at the ends (for a quarter turn by 17 %, for half a turn by a factor of
+/// 2).
 ///
 /// ```
 /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Quat, Vec3}};
@@ -62,12 +62,11 @@ impl Motion3 {
     /// Neither moves nor turns.
     pub const STILL: Self = Self { displacement: DVec3::ZERO, rotation: None };
 
-    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the rotation that is reached at the end, of
-    /// any length but zero: not the turn from the body's own, but where it ends. Without turning:
-    /// [`shift`](Self::shift).
+    /// A displacement in metres (`Vec3`, `DVec3`, or an array of f64), and the absolute rotation at the end (not one
+    /// relative to the start), of any length but zero. For a motion without rotation: [`shift`](Self::shift).
     ///
     /// # Errors
-    /// What is not finite, a displacement beyond 1e9 m on an axis, and a zero quaternion.
+    /// Numbers that are not finite, a displacement beyond 1e9 m on an axis, and a zero quaternion.
     pub fn new(displacement: impl Into<DVec3>, to: Quat) -> Result<Self, PoseError> {
         check_rotation(&to.to_array())?;
         Ok(Self { rotation: Some(to.to_array()), ..Self::shift(displacement)? })
@@ -92,11 +91,10 @@ impl Motion3 {
         Ok(Self { displacement, rotation: None })
     }
 
-    /// The motion that leads from one pose to another: what a solver's step is, once it is done. It turns the shorter
-    /// way.
+    /// The motion from one pose to another, such as a solver's step afterwards. It turns the shorter way.
     ///
-    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Of poses with the
-    /// same rotation it is a shift.
+    /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Between poses with
+    /// the same rotation it is a shift.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::Quat};
@@ -117,12 +115,12 @@ impl Motion3 {
         Ok(Self { rotation: is_turned.then_some(end), ..motion })
     }
 
-    /// The motion of a body that keeps its velocities for a time: metres a second, and radians a second about the axis
-    /// that the angular one points along, through the body's position; both in world axes.
+    /// The motion of a body with constant velocities for a time: metres per second, and radians per second about an
+    /// axis along `angular` through the body's position; both in world axes.
     ///
     /// It ends where the body would after a turn at constant speed, by `libm`, rounded to f32: the same bits on every
-    /// platform. What turns by less than 1e-7 rad a step may stand still, or turn by twice as much. On the way it turns
-    /// the shorter way, so half a turn and more in one step is a wheel seen to run backwards: take shorter steps.
+    /// platform. A turn of less than 1e-7 rad in a step may be lost, or doubled. On the way it turns the shorter way,
+    /// so with half a turn or more in one step a wheel appears to run backwards: take shorter steps.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Vec3}};
@@ -138,7 +136,7 @@ impl Motion3 {
     /// ```
     ///
     /// # Errors
-    /// What is not finite, and a displacement beyond 1e9 m on an axis.
+    /// Numbers that are not finite, and a displacement beyond 1e9 m on an axis.
     pub fn of_velocities(
         from: &Pose3,
         linear: impl Into<DVec3>,
@@ -158,26 +156,26 @@ impl Motion3 {
         Self::new(displacement, Quat::from_array([end.x, end.y, end.z, real].map(|value| value as f32)))
     }
 
-    /// How far the position moves in all, in metres.
+    /// The displacement of the whole motion, in metres.
     #[inline]
     pub const fn displacement(&self) -> DVec3 {
         self.displacement
     }
 
-    /// The rotation that is reached, bit for bit as given; none for a motion that does not turn.
+    /// The rotation at the end, bit for bit as given; `None` for a motion that does not turn.
     #[inline]
     pub fn rotation(&self) -> Option<Quat> {
         self.rotation.map(Quat::from_array)
     }
 
-    /// Where a body is that started at `from`, when a fraction of the motion is done.
+    /// The pose of a body that starts at `from` after a fraction of the motion.
     ///
-    /// At 0 and below, or for a NaN, it is `from` bit for bit; at 1 and above the position is their sum and the
-    /// rotation the one to be reached, bit for bit. In between the rotation is rounded to f32, by less than 1.2e-7
-    /// rad, and the position to f64. An end beyond 1e9 m on an axis is moved to there, axis by axis, and the
-    /// motion leads straight there.
+    /// - At 0 and below, or for NaN, it is `from` bit for bit.
+    /// - At 1 and above the position is the sum, and the rotation the one at the end, bit for bit.
+    /// - In between the rotation is rounded to f32, by less than 1.2e-7 rad, and the position to f64.
+    /// - An end beyond 1e9 m on an axis is clamped, axis by axis, and the motion leads straight to there.
     pub fn pose_at(&self, from: &Pose3, fraction: f64) -> Pose3 {
-        // A NaN is not above zero either.
+        // NaN counts as zero.
         if fraction.is_nan() || fraction <= 0.0 {
             return *from;
         }
@@ -195,12 +193,12 @@ impl Motion3 {
                 }
             }
         };
-        // Both are in range; the pose cannot be refused.
+        // Both are in range; the pose cannot be rejected.
         Pose3::new(position, rotation).unwrap_or(*from)
     }
 
-    /// How far a body moves in all that starts at `from`, in metres: by the displacement, unless that leads beyond the
-    /// range of poses.
+    /// The whole way of a body that starts at `from`, in metres: the displacement, unless that leads beyond the range
+    /// of poses.
     fn path(&self, from: &Pose3) -> DVec3 {
         let (limit, end) = (DVec3::splat(MAX_POSITION), from.position() + self.displacement);
         if end.abs().max_element() <= MAX_POSITION {
@@ -209,7 +207,7 @@ impl Motion3 {
         end.clamp(-limit, limit) - from.position()
     }
 
-    /// How a body turns that starts at `from`. Cost: two square roots and a product of quaternions.
+    /// The turn of a body that starts at `from`. Cost: two square roots and a product of quaternions.
     pub fn turn(&self, from: &Pose3) -> Turn3 {
         let start = unit(from.rotation().to_array().map(f64::from));
         let Some(to) = self.rotation else {
@@ -219,12 +217,12 @@ impl Motion3 {
         let dot = |[a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]| (a * x + b * y) + (c * z + d * w);
         let cosine = dot(start, end);
         let end = if cosine < 0.0 { end.map(|value| -value) } else { end };
-        // The vector of q' conjugate(q): the axis, times the sine of half the angle.
+        // The vector part of q' conjugate(q): the axis times the sine of half the angle.
         let ([a, b, c, d], [x, y, z, w]) = (start, end);
         let (v, v_end) = (DVec3::new(a, b, c), DVec3::new(x, y, z));
         let across = v_end * d - v * w + v.cross(v_end);
         let sine = across.length();
-        // Of rotations that differ by nothing but rounding, the axis is rounding too.
+        // If the rotations differ only by rounding, the axis is mere rounding, too.
         if sine <= STILL {
             return Turn3 { from: start, to: start, axis: DVec3::X, sine: 0.0, cosine: 1.0 };
         }
@@ -237,8 +235,8 @@ impl Motion3 {
         }
     }
 
-    /// No less than the angular speed of a body that starts at `from`, in radians for the whole motion: at most 4,
-    /// and never more than 1.28 times that of an even turn.
+    /// An upper bound on the angular speed of a body that starts at `from`, in radians per whole motion: at most 4, and
+    /// at most 1.28 times that of an even turn.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
@@ -252,10 +250,10 @@ impl Motion3 {
     }
 }
 
-/// Sine of half an angle below which rotations are the same up to rounding of f64.
+/// Sine of half the angle below which rotations are the same up to rounding of f64.
 const STILL: f64 = 8.0 * f64::EPSILON;
 
-/// Above this, in relation, a bound holds whatever its few operations lost to rounding.
+/// A factor that covers the rounding of a bound's few operations.
 const ROUNDED_UP: f64 = 1.0 + 32.0 * f64::EPSILON;
 
 impl Turn3 {
@@ -265,14 +263,14 @@ impl Turn3 {
         self.sine == 0.0
     }
 
-    /// The unit axis that it turns about, in world axes; it means nothing where nothing turns.
+    /// The unit axis that it turns about, in world axes; meaningless if it does not turn.
     #[inline]
     pub const fn axis(&self) -> DVec3 {
         self.axis
     }
 
-    /// How far the end of an arm of unit length is from where it started, at most and at any fraction: twice the sine
-    /// of half the angle, 2 for half a turn.
+    /// The greatest distance at any fraction of the end of a unit arm from where it started: twice the sine of half the
+    /// angle, 2 for half a turn.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
@@ -302,22 +300,22 @@ impl Turn3 {
         Basis3::of_quaternion(self.quaternion_at(fraction))
     }
 
-    /// The angular speed at a fraction from 0 to 1, about the axis, in radians for the whole motion.
+    /// The angular speed about the axis at a fraction from 0 to 1, in radians per whole motion.
     #[inline]
     pub fn speed_at(&self, fraction: f64) -> f64 {
-        // |q(t)|^2, of quaternions of unit length at an angle whose cosine is known.
+        // |q(t)|^2 between unit quaternions, from the cosine of their angle.
         let squared = 1.0 - 2.0 * fraction * (1.0 - fraction) * (1.0 - self.cosine);
         2.0 * self.sine / squared
     }
 
-    /// A bound on the angular speed, in radians for the whole motion: that of the middle.
+    /// A bound on the angular speed, in radians per whole motion: the speed in the middle.
     #[inline]
     pub fn top_speed(&self) -> f64 {
         self.bounds_within(0.0, 1.0)[0]
     }
 
-    /// Bounds on the angular speed and on how fast it changes, from one fraction to another, in radians for the whole
-    /// motion and for its square.
+    /// Bounds on the angular speed and on its rate of change between two fractions, in radians per whole motion, and
+    /// per whole motion squared.
     ///
     /// ```
     /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
@@ -331,18 +329,18 @@ impl Turn3 {
         if self.is_still() {
             return [0.0; 2];
         }
-        // Fastest where nearest to the middle; its square's rate is greatest furthest from there.
+        // It is fastest where nearest to the middle; |q(t)|^2 changes fastest furthest from there.
         let nearest = (from - 0.5).max(0.5 - to).max(0.0);
         let furthest = (from - 0.5).abs().max((to - 0.5).abs());
         let share = 1.0 - self.cosine;
-        // |q(t)|^2 about the middle, and what it changes by.
+        // |q(t)|^2 at the point nearest to the middle.
         let squared = 1.0 - share * (0.5 - 2.0 * nearest * nearest);
         let speed = 2.0 * self.sine / squared * ROUNDED_UP;
         [speed.min(4.0), speed * (4.0 * share.max(0.0) * furthest) / squared * ROUNDED_UP]
     }
 }
 
-/// A quaternion of f32 numbers, or one between such, of unit length.
+/// Normalises a quaternion of f32 numbers, or one between two such.
 fn unit(q: [f64; 4]) -> [f64; 4] {
     let [x, y, z, w] = q;
     let length = ((x * x + y * y) + (z * z + w * w)).sqrt();
@@ -357,7 +355,7 @@ mod tests {
         Pose3::new(DVec3::new(1.0, -2.0, 3.0), Quat::from_array(q)).unwrap()
     }
 
-    /// Rotations near and far, of all lengths, and exactly half a turn.
+    /// Rotations near and far apart, of all lengths, and exactly half a turn.
     const ROTATIONS: [[f32; 4]; 8] = [
         [0.0, 0.0, 0.0, 1.0],
         [0.1, -0.2, 0.3, 0.4],
@@ -458,7 +456,7 @@ mod tests {
         );
     }
 
-    /// By the formula of Rodrigues, which knows no quaternions.
+    /// By the formula of Rodrigues, without quaternions.
     fn rotated(v: DVec3, axis: DVec3, angle: f64) -> DVec3 {
         let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
         v * cosine + axis.cross(v) * sine + axis * (axis.dot(v) * (1.0 - cosine))

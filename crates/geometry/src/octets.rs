@@ -1,10 +1,10 @@
-//! A shape's data eight by eight, in the layout that wide kernels load.
+//! A shape's data in groups of eight, in the layout that SIMD kernels load.
 
 use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 
-/// Eight vertices side by side, in metres, in order. Places past the last vertex repeat the first, so that no kernel
-/// counts.
+/// Eight vertices side by side, in metres, in order. Places past the last vertex repeat the first, so that kernels need
+/// no count.
 ///
 /// ```
 /// use asunder_geometry::{Shape3, Triangle3, glam::Vec3};
@@ -24,8 +24,8 @@ pub struct VertexOctet {
     pub z: [f32; 8],
 }
 
-/// Eight faces side by side, in order, rounded to f32: good to propose and to discard by, with a bound, and never a
-/// proof. Places past the last face have a height of infinity, so that nothing lies over them.
+/// Eight faces side by side, in order, rounded to f32: good for proposing candidates, and for discarding them with an
+/// error bound, but never a proof. Places past the last face have infinite height, so that nothing is beyond them.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -44,12 +44,12 @@ pub struct FaceOctet {
     pub y: [f32; 8],
     /// Outward unit normals, on the z axis.
     pub z: [f32; 8],
-    /// How far the shape reaches along the normal, in metres from its origin.
+    /// Support height of the shape along the normal, in metres from its origin.
     pub height: [f32; 8],
 }
 
-/// Eight edges side by side, by the faces beside them: in order, or of many edges those that look the same way
-/// ([`EdgeOctet::SORTED_FROM`]). Places past the last edge have faces of infinite height.
+/// Eight edges side by side, by the faces beside them: in order or, for shapes with many edges, grouped by the
+/// direction they face ([`EdgeOctet::SORTED_FROM`]). Places past the last edge have faces of infinite height.
 ///
 /// ```
 /// use asunder_geometry::{Hull, Shape3, glam::Vec3};
@@ -70,7 +70,7 @@ pub struct EdgeOctet {
     pub numbers: [u16; 8],
 }
 
-/// An edge on the Gauss map, in f32: to propose by, as [`FaceOctet`].
+/// The arc of an edge on the Gauss map, in f32: good for proposing candidates, as [`FaceOctet`].
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
@@ -84,15 +84,15 @@ pub struct EdgeOctet {
 pub struct EdgeArc {
     /// Unit direction of the lower half-edge.
     pub along: Vec3,
-    /// Unit normals on both sides, between which the arc runs; that of the lower half-edge's face first. Zero for a
-    /// segment, which has its whole great circle.
+    /// Unit normals of both faces, between which the arc runs; that of the lower half-edge's face first. Zero for a
+    /// segment, whose arc is a whole great circle.
     pub ends: [Vec3; 2],
     /// A unit direction in the middle of the arc; zero for a segment.
     pub middle: Vec3,
 }
 
 impl EdgeArc {
-    /// Of an edge that is not there.
+    /// Stands for no edge.
     pub(crate) const NONE: Self = Self { along: Vec3::ZERO, ends: [Vec3::ZERO; 2], middle: Vec3::ZERO };
 
     /// The arc of an edge, by its lower half-edge.
@@ -105,7 +105,7 @@ impl EdgeArc {
         let (Some(&left), Some(&right)) = (normal(half_edge), normal(twin)) else {
             return Self { along: along.as_vec3(), ..Self::NONE };
         };
-        // Of faces that are all but back to back the sum is what rounding left of it, and the difference tells.
+        // If the faces are nearly back to back, the sum is mere rounding, and the difference gives the middle.
         let middle = if left.dot(right) < 0.0 { along.cross(left - right) } else { left + right };
         Self {
             along: along.as_vec3(),
@@ -125,7 +125,7 @@ impl VertexOctet {
     /// Eight vertices, as they are.
     #[inline]
     pub(crate) fn of_eight(vertices: &[Vec3; 8]) -> Self {
-        // Not by `map`, which calls: every cuboid that is seen as a solid has one made.
+        // Not by `map`, which is a call: every cuboid that is used as a polyhedron makes one.
         let mut octet = Self { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8] };
         for (i, vertex) in vertices.iter().enumerate() {
             (octet.x[i], octet.y[i], octet.z[i]) = (vertex.x, vertex.y, vertex.z);
@@ -187,22 +187,23 @@ impl FaceOctet {
 }
 
 impl EdgeOctet {
-    /// So many edges of a shape, and more, come sorted by where they look; fewer in order, by their numbers.
+    /// From this many edges on, those of a shape are sorted by the direction they face; fewer are in the order of their
+    /// numbers.
     ///
-    /// What tells one edge then mostly tells its neighbours in the octet: hulls of 256 vertices, deep and turned,
-    /// take 12 % less.
+    /// A test that discards one edge then mostly discards its neighbours in the octet, too: hulls of 256 vertices, deep
+    /// and turned, take 12 % less time.
     pub const SORTED_FROM: usize = 64;
 
     const NONE: Self = Self { sides: [FaceOctet::NONE; 2], cosine: [1.0; 8], numbers: [0; 8] };
 
-    /// The edges of a polyhedron; none of what has no faces.
+    /// The edges of a polyhedron; none if there are no faces.
     pub(crate) fn all(normals: &[DVec3], heights: &[f64], topology: &Topology) -> Box<[Self]> {
         let half_edges = topology.half_edges();
         let beside = |edge: u16| {
             [edge, half_edges[edge as usize].twin].map(|edge| half_edges[edge as usize].face as usize)
         };
         let normal = |face: usize| normals.get(face).copied().unwrap_or(DVec3::ZERO);
-        // Places on a curve, and edges.
+        // Each edge with its place on a curve through all directions.
         let mut order: Vec<(u16, u16)> = (0..).zip(topology.edges()).map(|(number, _)| (0, number)).collect();
         if order.len() >= Self::SORTED_FROM {
             for ((place, _), &edge) in order.iter_mut().zip(topology.edges()) {
@@ -227,7 +228,7 @@ impl EdgeOctet {
         order.chunks(8).map(octet).collect()
     }
 
-    /// The edges of a cuboid, those of a unit cube being given.
+    /// The edges of a cuboid, from those of a unit cube.
     #[inline]
     pub(crate) fn of_cuboid(unit: &[Self; 2], half: Vec3) -> [Self; 2] {
         let mut edges = *unit;
@@ -242,8 +243,8 @@ impl EdgeOctet {
     }
 }
 
-/// A direction's place on a curve through all of them, of which near ones are mostly near on it: the bits of its
-/// coordinates in turns (Morton, "A computer oriented geodetic data base", IBM, 1966).
+/// The Z-order code of a direction, its coordinates' bits interleaved, which mostly keeps near directions near (Morton,
+/// "A computer oriented geodetic data base", IBM, 1966).
 fn place_on_curve(direction: Vec3) -> u16 {
     let cells = direction.to_array().map(|along| ((along + 1.0) * 15.99) as u16);
     let mut place = 0;
@@ -260,14 +261,14 @@ pub(crate) fn extent(vertices: &[Vec3]) -> f32 {
     vertices.iter().map(|v| v.abs().max_element()).fold(0.0, f32::max)
 }
 
-/// How far vertices reach along each normal.
+/// The support height of vertices along each normal.
 fn heights(vertices: &[Vec3], normals: &[DVec3]) -> Box<[f64]> {
     let reach =
         |normal: &DVec3| vertices.iter().map(|v| normal.dot(v.as_dvec3())).fold(f64::NEG_INFINITY, f64::max);
     normals.iter().map(reach).collect()
 }
 
-/// What wide kernels load of a hull, made once with it.
+/// The data of a hull that SIMD kernels load, made once with it.
 #[derive(Debug, Default, PartialEq)]
 pub(crate) struct Octets {
     /// How far the vertices reach along each normal.

@@ -1,4 +1,4 @@
-//! Rounding an f64 interval outwards to f32, so that a box never loses the shape inside it.
+//! Rounds f64 intervals outwards to f32, so that a box always contains its shape.
 
 use crate::aabb::{Aabb2, Aabb3};
 use crate::octets::VertexOctet;
@@ -6,8 +6,8 @@ use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// The largest f32 that is not above `value`: what a lower bound is told by. No number stays none, and what is above
-/// all f32 but not infinite becomes the greatest of them.
+/// The largest f32 that is not above `value`, for lower bounds. NaN stays NaN, and finite numbers beyond f32 become its
+/// greatest.
 ///
 /// ```
 /// use asunder_geometry::round_down;
@@ -15,8 +15,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// assert_eq!((round_down(0.5), round_down(1e300)), (0.5, f32::MAX));
 /// ```
 ///
-/// Cost: no branch. Whether what is nearest is on the wrong side is a coin's toss, six times a box: a number that is
-/// added, and no branch. With branches the boxes of cuboids were 14 % of a frame of pyramids, and are 4 % (samples; AMD
+/// Cost: no branch. Whether the nearest f32 is on the wrong side is a coin toss, six times a box, so the step is added
+/// as a number. With branches the boxes of cuboids were 14 % of a frame of pyramids, and are 4 % without (samples; AMD
 /// EPYC, Zen 4, 2026-11-23).
 #[inline]
 pub fn round_down(value: f64) -> f32 {
@@ -31,8 +31,8 @@ pub(crate) fn round_up(value: f64) -> f32 {
     step(nearest, i32::from(f64::from(nearest) < value))
 }
 
-/// The next f32 up (1) or down (-1), or the same (0). Of zeros, whose sign says which side they were rounded from, the
-/// next away from zero: `next_up` and `next_down` for all that is asked here.
+/// The next f32 up (1) or down (-1), or the same (0). The sign of a zero says from which side it was rounded, so its
+/// step goes away from zero. Equals `next_up` and `next_down` for all values that come up here.
 #[inline]
 fn step(value: f32, by: i32) -> f32 {
     let bits = value.to_bits();
@@ -41,7 +41,7 @@ fn step(value: f32, by: i32) -> f32 {
     f32::from_bits(bits.wrapping_add_signed(away * by))
 }
 
-/// One side of a box: `low..high` relative to `position`, widened by `grow`, and by `lost`, what f64 may have lost.
+/// One axis of a box: `low..high` relative to `position`, widened by `grow` and by `lost`, the rounding error in f64.
 ///
 /// Rounding comes last, after translation and margin: a box rounded first and moved later can lose a contact.
 #[inline]
@@ -49,16 +49,16 @@ pub(crate) fn interval(position: f64, low: f64, high: f64, grow: f64, lost: f64)
     (round_down(position + low - grow - lost), round_up(position + high + grow + lost))
 }
 
-/// What f64 may lose of a body's projection on an axis, from its coordinates added up.
+/// The rounding error in f64 of a body's projection on an axis, from the sums of its absolute coordinates.
 ///
-/// As much as the narrow phase allows a pair, from both bodies' own: all coordinates count, and not only those on the
-/// axis. What counts as touching there must not be apart here.
+/// It matches what the narrow phase allows for a pair, where all coordinates of both bodies count, and not only those
+/// on the axis: a pair that counts as touching there must not be apart here.
 #[inline]
 pub(crate) fn lost(position: f64, reach: f64, grow: f64) -> f64 {
     64.0 * f64::EPSILON * (position + reach + grow)
 }
 
-/// The box around points in the plane, posed, grown by `grow` metres. There must be a point.
+/// The box around posed points in the plane, grown by `grow` metres. There must be a point.
 pub(crate) fn around2(points: impl Iterator<Item = DVec2>, pose: &Pose2, grow: f64) -> Aabb2 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for point in points {
@@ -72,7 +72,7 @@ pub(crate) fn around2(points: impl Iterator<Item = DVec2>, pose: &Pose2, grow: f
     Aabb2::new(Vec2::new(x.0, y.0), Vec2::new(x.1, y.1))
 }
 
-/// The box around points in space, posed, grown by `grow` metres. There must be a point.
+/// The box around posed points in space, grown by `grow` metres. There must be a point.
 pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f64) -> Aabb3 {
     let basis = pose.basis();
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -83,11 +83,12 @@ pub(crate) fn around3(points: impl Iterator<Item = DVec3>, pose: &Pose3, grow: f
     around(low, high, pose, grow)
 }
 
-/// The same around many, none of whose coordinates exceeds `extent`, eight by eight in f32: wider by what that may
-/// lose, less than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here (AMD EPYC, Zen 4, 2026-11-23).
+/// The same for many vertices whose coordinates do not exceed `extent`, eight at a time in f32. It is wider by the
+/// rounding error, less than a millionth of the extent. 32 vertices: 99 ns one by one, 67 here (AMD EPYC, Zen 4,
+/// 2026-11-23).
 ///
-/// Tried: four vertices at a time along all three axes, so that each is loaded once: nothing, with 32 vertices and with
-/// 16 (AMD EPYC, Zen 5, 2026-11-24). Most of it is one result after another, before the vertices and after.
+/// Tried: four vertices at a time along all three axes, so that each is loaded once: no gain, with 32 vertices or 16
+/// (AMD EPYC, Zen 5, 2026-11-24). Most of the time is a chain of dependent operations before and after the vertices.
 pub(crate) fn around_octets(octets: &[VertexOctet], extent: f32, pose: &Pose3, grow: f64) -> Aabb3 {
     let basis = pose.basis();
     let mut sides = [[0.0; 2]; 3];
@@ -106,7 +107,7 @@ pub(crate) fn around_octets(octets: &[VertexOctet], extent: f32, pose: &Pose3, g
                 down[i] = if -reach[i] > down[i] { -reach[i] } else { down[i] };
             }
         }
-        // The row, each product and two sums: below 4.1 units of 2^-24 of the terms' sum.
+        // Rounding of the row, each product and two sums: below 4.1 times 2^-24 of the terms' sum.
         let terms = f64::from(extent) * f64::from(row.abs().element_sum());
         let doubt = 2.1 * f64::from(f32::EPSILON) * terms;
         *side = [-f64::from(greatest(down)) - doubt, f64::from(greatest(up)) + doubt];
@@ -186,7 +187,7 @@ mod tests {
             let tight = around3(points.iter().map(|point| point.as_dvec3()), &pose, 0.0);
             let found = around_octets(&octets, extent, &pose, 0.0);
             assert!(found.min.cmple(tight.min).all() && found.max.cmpge(tight.max).all(), "{case}");
-            // And the last f32 of a place up to eleven extents away.
+            // Plus the f32 rounding of a position up to eleven extents away.
             let wider = (tight.min - found.min).max(found.max - tight.max).max_element();
             assert!(wider <= 3e-6 * extent, "{case}: {wider} of {extent}");
         }

@@ -6,8 +6,8 @@ use glam::{DAffine2, DVec2};
 
 /// A rotation in the plane, stored as its cosine and sine.
 ///
-/// It means the stored matrix `[c -s; s c]`, which its constructor normalises once. The stored pair is within an f32
-/// rounding of unit length; that tiny scale is part of the true shape.
+/// It *means* the stored matrix `[c -s; s c]`, which the constructor normalises once. The stored pair is within an f32
+/// rounding of unit length; that tiny scale counts as part of the true shape.
 ///
 /// ```
 /// use asunder_geometry::Rotation2;
@@ -27,29 +27,29 @@ impl Rotation2 {
     /// No rotation.
     pub const IDENTITY: Self = Self { cos: 1.0, sin: 0.0 };
 
-    /// The rotation that takes the x axis to the direction (`cos`, `sin`), of any length but zero.
+    /// The rotation of the x axis to the direction (`cos`, `sin`), of any length but zero.
     ///
     /// # Errors
-    /// What is not finite, and zero.
+    /// Numbers that are not finite, and zero.
     pub fn new(cos: f32, sin: f32) -> Result<Self, PoseError> {
         check_rotation(&[cos, sin])?;
         Ok(Self::of_f64(cos.into(), sin.into()))
     }
 
-    /// Of numbers that are finite, and not both zero.
+    /// From numbers that are finite, and not both zero.
     pub(crate) fn of_f64(c: f64, s: f64) -> Self {
         let length = (c * c + s * s).sqrt();
         Self { cos: (c / length) as f32, sin: (s / length) as f32 }
     }
 
-    /// The other way round, bit for bit.
+    /// The opposite rotation, bit for bit.
     pub(crate) fn reversed(self) -> Self {
-        // A difference, and no sign: there is no second zero.
+        // A difference instead of a negation avoids -0.
         Self { cos: self.cos, sin: 0.0 - self.sin }
     }
 
-    /// The rotation that showed these as its [`cos`](Self::cos) and [`sin`](Self::sin), bit for bit: for what a game
-    /// stores or sends in a format of its own. [`Rotation2::new`] would round them once more, and change one in two
+    /// The rotation whose [`cos`](Self::cos) and [`sin`](Self::sin) were these, bit for bit: for games that store or
+    /// send rotations in a format of their own. [`Rotation2::new`] would normalise them again, and change one in two
     /// hundred.
     ///
     /// ```
@@ -61,7 +61,7 @@ impl Rotation2 {
     /// ```
     ///
     /// # Errors
-    /// What is not finite, and what no rotation shows, since its length is not 1 up to rounding.
+    /// Numbers that are not finite, or whose length is not 1 up to rounding, as that of every rotation.
     pub fn restored(cos: f32, sin: f32) -> Result<Self, PoseError> {
         check_rotation(&[cos, sin])?;
         let (c, s) = (f64::from(cos), f64::from(sin));
@@ -105,7 +105,7 @@ impl Rotation2 {
         self.sin
     }
 
-    /// A vector turned by the stored matrix.
+    /// Rotates a vector by the stored matrix.
     #[inline]
     pub fn turn(&self, v: DVec2) -> DVec2 {
         let (c, s) = (f64::from(self.cos), f64::from(self.sin));
@@ -167,7 +167,7 @@ impl Pose2 {
         self.rotation
     }
 
-    /// The pose elsewhere, in metres (`Vec2`, `DVec2`, or an array of f64), turned as it is.
+    /// The pose with another position, in metres (`Vec2`, `DVec2`, or an array of f64), and the same rotation.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
@@ -184,7 +184,7 @@ impl Pose2 {
         Self::new(position, self.rotation)
     }
 
-    /// The pose turned otherwise, where it is.
+    /// The pose with another rotation, and the same position.
     #[must_use]
     pub const fn with_rotation(&self, rotation: Rotation2) -> Self {
         Self { position: self.position, rotation }
@@ -207,20 +207,21 @@ impl Pose2 {
         Self::new(self.position + displacement.into(), self.rotation)
     }
 
-    /// A local point, in metres, taken to the world.
+    /// Transforms a local point, in metres, to world space.
     #[inline]
     pub fn transform(&self, point: impl Into<DVec2>) -> DVec2 {
         self.position + self.rotation.turn(point.into())
     }
 
-    /// A point of the world, in metres, taken to local axes: what [`Pose2::transform`] undoes, up to rounding.
+    /// Transforms a point in world space, in metres, to local space: the inverse of [`Pose2::transform`], up to
+    /// rounding.
     #[inline]
     pub fn transform_back(&self, point: DVec2) -> DVec2 {
         self.turn_back(point - self.position)
     }
 
-    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. What
-    /// [`Pose3::to_affine`](crate::Pose3::to_affine) says of cameras holds here, too.
+    /// The pose as an affine matrix from local to world space, for renderers and scene graphs. The note on cameras of
+    /// [`Pose3::to_affine`](crate::Pose3::to_affine) applies here, too.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::{Affine2, DAffine2, DVec2, Vec2}};
@@ -235,7 +236,7 @@ impl Pose2 {
         DAffine2::from_cols(self.rotation.turn(DVec2::X), self.rotation.turn(DVec2::Y), self.position)
     }
 
-    /// A local direction taken to world axes: where the body looks, say.
+    /// Transforms a local direction to world axes: where the body faces, say.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
@@ -248,14 +249,14 @@ impl Pose2 {
         self.rotation.turn(direction)
     }
 
-    /// A direction of the world taken to local axes, by the inverse of the stored matrix.
+    /// Transforms a direction in world axes to local axes, by the inverse of the stored matrix.
     #[inline]
     pub fn turn_back(&self, direction: DVec2) -> DVec2 {
         let (c, s) = (f64::from(self.rotation.cos), f64::from(self.rotation.sin));
         DVec2::new(c * direction.x + s * direction.y, c * direction.y - s * direction.x) / (c * c + s * s)
     }
 
-    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to tell whether a body has moved.
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         self.position.x.to_bits() == other.position.x.to_bits()
@@ -263,8 +264,8 @@ impl Pose2 {
             && self.same_rotation(other)
     }
 
-    /// How far the points within `arm` metres of the position go at most, on the way to another pose by the shortest
-    /// turn: no less than the distance between where any of them starts and ends. Rounded up.
+    /// An upper bound on how far any point within `arm` metres of the position moves on the way to another pose by the
+    /// shortest turn; at least the distance between where any of them starts and ends. Rounded up.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2};
@@ -281,7 +282,7 @@ impl Pose2 {
             f64::from(to.rotation.sin) - f64::from(self.rotation.sin),
         );
         let spin = step.length();
-        // An endless arm that does not turn goes nowhere.
+        // Zero times infinity: an infinite arm that does not turn does not move.
         let turned = if spin > 0.0 { spin * arm } else { 0.0 };
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
     }

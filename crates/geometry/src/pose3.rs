@@ -4,7 +4,7 @@ use crate::basis3::Basis3;
 use crate::tolerance::MAX_POSITION;
 use glam::{DAffine3, DVec3, Quat};
 
-/// Why a pose was refused.
+/// Why a pose was rejected.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, PoseError, glam::{Quat, Vec3}};
@@ -35,10 +35,10 @@ pub enum PoseError {
         /// What was given.
         value: f32,
     },
-    /// The rotation is zero in every component, and so points nowhere.
+    /// The rotation is zero in every component, and so has no direction.
     ZeroRotation,
-    /// A cosine and a sine that no rotation of the plane shows, see [`Rotation2::restored`](crate::Rotation2::restored):
-    /// their squares do not add up to one.
+    /// A cosine and a sine that no rotation in the plane has, as their squares do not add up to one: see
+    /// [`Rotation2::restored`](crate::Rotation2::restored).
     NotUnit {
         /// The cosine.
         cos: f32,
@@ -78,7 +78,7 @@ impl core::fmt::Display for PoseError {
 
 impl core::error::Error for PoseError {}
 
-/// Refuses what is not finite or out of range, whichever the dimension.
+/// Rejects positions that are not finite or out of range, in either dimension.
 pub(crate) fn check_position(position: &[f64]) -> Result<(), PoseError> {
     for (axis, &value) in position.iter().enumerate() {
         if !value.is_finite() {
@@ -91,7 +91,7 @@ pub(crate) fn check_position(position: &[f64]) -> Result<(), PoseError> {
     Ok(())
 }
 
-/// Refuses a rotation that is not finite or that is zero.
+/// Rejects a rotation that is not finite or zero.
 pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
     for (component, &value) in components.iter().enumerate() {
         if !value.is_finite() {
@@ -118,7 +118,8 @@ pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
 /// assert_eq!(pose.transform(Vec3::X).to_array(), [1e6, 1.0, 0.0]);
 /// # Ok::<(), asunder_geometry::PoseError>(())
 /// ```
-// The rotation first: a copy goes by sixteen bytes, and what is read right after it must not straddle two of those.
+// The rotation comes first: copies are made in chunks of sixteen bytes, and a load right after one must not straddle
+// two of these stores.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Pose3 {
@@ -134,7 +135,7 @@ impl Pose3 {
     /// A pose from a position (`Vec3`, `DVec3`, or an array of f64) and a rotation of any length but zero.
     ///
     /// # Errors
-    /// What is not finite, a coordinate beyond [`MAX_POSITION`], and a zero quaternion.
+    /// Numbers that are not finite, a coordinate beyond [`MAX_POSITION`], and a zero quaternion.
     pub fn new(position: impl Into<DVec3>, rotation: Quat) -> Result<Self, PoseError> {
         let position = position.into();
         check_position(&position.to_array())?;
@@ -158,13 +159,14 @@ impl Pose3 {
 
     /// The rotation, bit for bit as it was given.
     ///
-    /// glam wants unit quaternions: normalise it before it goes into one of its matrices, or take [`Pose3::to_affine`].
+    /// It need not be a unit quaternion, as glam's matrices require: normalise it for these, or use
+    /// [`Pose3::to_affine`].
     #[inline]
     pub fn rotation(&self) -> Quat {
         Quat::from_array(self.rotation)
     }
 
-    /// The pose elsewhere, in metres (`Vec3`, `DVec3`, or an array of f64), turned as it is.
+    /// The pose with another position, in metres (`Vec3`, `DVec3`, or an array of f64), and the same rotation.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
@@ -181,7 +183,7 @@ impl Pose3 {
         Self::new(position, self.rotation())
     }
 
-    /// The pose turned otherwise, where it is.
+    /// The pose with another rotation, and the same position.
     ///
     /// # Errors
     /// As [`Pose3::new`].
@@ -212,8 +214,8 @@ impl Pose3 {
         Basis3::of_quaternion(self.components())
     }
 
-    /// The axes of this pose as seen from another one: right to 31 units of 2^-53, and exactly 1 where both are turned
-    /// alike. Cost: as [`Pose3::basis`], and a product of quaternions.
+    /// The axes of this pose in the axes of another one: right to 31 units of 2^-53, and exactly the identity if both
+    /// rotations are equal. Cost: that of [`Pose3::basis`], and a product of quaternions.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
@@ -228,9 +230,8 @@ impl Pose3 {
         Basis3::between(other.components(), self.components())
     }
 
-    /// The turn, in world axes, that takes directions from where they pointed in another pose to where they point in
-    /// this one: right to 31 units of 2^-53, and exactly none where both are turned alike. Cost: as
-    /// [`Pose3::basis_from`].
+    /// The rotation, in world axes, that takes a body's directions in another pose to those in this one: right to 31
+    /// units of 2^-53, and exactly the identity if both rotations are equal. Cost: that of [`Pose3::basis_from`].
     ///
     /// ```
     /// use asunder_geometry::{Basis3, Pose3, glam::{DVec3, Quat, Vec3}};
@@ -242,34 +243,35 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn turn_since(&self, other: &Self) -> Basis3 {
-        // q conjugate(p), as the conjugate of q's conjugate times p's.
+        // q conjugate(p), from the conjugates of both.
         let ([a, b, c, d], [x, y, z, w]) = (other.components(), self.components());
         Basis3::between([-x, -y, -z, w], [-a, -b, -c, d])
     }
 
-    /// The rotation's x, y, z, w. Written out, as what follows is: without link-time optimisation `map` is a call.
+    /// The rotation's x, y, z, w. Written out, as below: without link-time optimisation `map` is a call.
     #[inline(always)]
     pub(crate) fn components(&self) -> [f64; 4] {
         let [x, y, z, w] = self.rotation;
         [x.into(), y.into(), z.into(), w.into()]
     }
 
-    /// A local point, in metres, taken to the world.
+    /// Transforms a local point, in metres, to world space.
     #[inline]
     pub fn transform(&self, point: impl Into<DVec3>) -> DVec3 {
         self.position + self.basis().turn(point.into())
     }
 
-    /// A point of the world, in metres, taken to local axes: what [`Pose3::transform`] undoes, up to rounding.
+    /// Transforms a point in world space, in metres, to local space: the inverse of [`Pose3::transform`], up to
+    /// rounding.
     #[inline]
     pub fn transform_back(&self, point: DVec3) -> DVec3 {
         self.basis().turn_back(point - self.position)
     }
 
-    /// The same as an affine matrix, which takes local points to the world: for renderers and scene graphs. Right to
-    /// some units of 2^-53; its 3 by 3 part is a rotation, whatever the quaternion's length.
+    /// The pose as an affine matrix from local to world space, for renderers and scene graphs. Right to some units of
+    /// 2^-53; its 3 by 3 part is a rotation, whatever the quaternion's length.
     ///
-    /// An f32 matrix of it is as coarse as the position is far away. Draw relative to the camera, and nothing trembles:
+    /// Rounded to f32, it gets coarser with the distance from the origin. To avoid jitter, draw relative to the camera:
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DAffine3, DVec3, Mat4, Quat, Vec3A}};
@@ -287,7 +289,7 @@ impl Pose3 {
         DAffine3::from_cols(x, y, z, self.position)
     }
 
-    /// A local direction taken to world axes: where the body looks, say.
+    /// Transforms a local direction to world axes: where the body faces, say.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
@@ -300,13 +302,13 @@ impl Pose3 {
         self.basis().turn(direction)
     }
 
-    /// A direction of the world taken to local axes.
+    /// Transforms a direction in world axes to local axes.
     #[inline]
     pub fn turn_back(&self, direction: DVec3) -> DVec3 {
         self.basis().turn_back(direction)
     }
 
-    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. What a world asks before it calls a body moved.
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to tell whether a body has moved.
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         let (here, there) = (self.position, other.position);
@@ -316,8 +318,8 @@ impl Pose3 {
             && self.same_rotation(other)
     }
 
-    /// How far the points within `arm` metres of the position go at most, on the way to another pose by the shortest
-    /// turn: no less than the distance between where any of them starts and ends. Rounded up.
+    /// An upper bound on how far any point within `arm` metres of the position moves on the way to another pose by the
+    /// shortest turn; at least the distance between where any of them starts and ends. Rounded up.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::Quat};
@@ -332,13 +334,14 @@ impl Pose3 {
     pub fn travel(&self, to: &Self, arm: f64) -> f64 {
         let straight = (to.position - self.position).length();
         let spin = if self.same_rotation(to) { 0.0 } else { to.spin_since(self) };
-        // An endless arm that does not turn goes nowhere.
+        // Zero times infinity: an infinite arm that does not turn does not move.
         let turned = if spin > 0.0 { spin * arm } else { 0.0 };
         (straight + turned) * (1.0 + 64.0 * f64::EPSILON)
     }
 
-    /// How far the tips of unit vectors went at most, as [`Basis3::spin_from`], of quaternions alone: twice the sine of
-    /// half the angle, which is the share of the vector part in the turn from one to the other. A third of the work.
+    /// How far the tips of unit vectors moved at most, like [`Basis3::spin_from`] but from the quaternions: twice the
+    /// sine of half the angle, which is the share of the vector part in the rotation from one to the other. A third of
+    /// the work.
     #[inline]
     fn spin_since(&self, other: &Self) -> f64 {
         let ([a, b, c, d], [x, y, z, w]) = (other.components(), self.components());
@@ -363,7 +366,7 @@ impl Pose3 {
     /// ```
     #[inline]
     pub fn same_rotation(&self, other: &Self) -> bool {
-        // Without a branch a component.
+        // Without a branch per component.
         let ([x, y, z, w], [a, b, c, d]) =
             (self.rotation.map(f32::to_bits), other.rotation.map(f32::to_bits));
         (x ^ a) | (y ^ b) | (z ^ c) | (w ^ d) == 0

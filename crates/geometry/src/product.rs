@@ -1,15 +1,15 @@
-//! Products with what rounding took from them.
+//! Products with their exact rounding errors.
 //!
-//! Dekker, "A floating-point technique for extending the available precision" (1971): without a fused multiply-add,
-//! which not every platform has.
+//! Dekker, "A floating-point technique for extending the available precision" (1971), without fused multiply-add, which
+//! not every platform has.
 
-/// `a b - c d`, right to a few units in the last place: what each product lost is added back.
+/// `a b - c d`, right to a few units in the last place: the rounding error of each product is added back.
 pub(crate) fn product_difference(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let ((ab, ab_lost), (cd, cd_lost)) = (exact_product(a, b), exact_product(c, d));
     (ab - cd) + (ab_lost - cd_lost)
 }
 
-/// A product as its rounded value and the rest.
+/// A product as its rounded value and the rounding error.
 fn exact_product(a: f64, b: f64) -> (f64, f64) {
     let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
     let rounded = a * b;
@@ -40,7 +40,7 @@ mod tests {
             let (a, b) = (next(), next());
             let (rounded, lost) = exact_product(a as f64, b as f64);
             assert_eq!(rounded as i128 + lost as i128, i128::from(a) * i128::from(b), "{a} {b}");
-            // Next to each other, both products are all but lost.
+            // Neighbouring factors: both products cancel almost completely.
             let (c, d) = (a + 1, b - 1);
             let truth = i128::from(a) * i128::from(b) - i128::from(c) * i128::from(d);
             let found = product_difference(a as f64, b as f64, c as f64, d as f64);

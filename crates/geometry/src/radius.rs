@@ -1,9 +1,9 @@
-//! Radii: of round shapes, and of the rounding that a polygon, cuboid or hull may carry.
+//! Radii of round shapes, and of the rounding that a polygon, cuboid or hull may have.
 
 use crate::outward::round_up;
 use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 
-/// Why a radius was refused.
+/// Why a radius was rejected.
 ///
 /// ```
 /// use asunder_geometry::{RadiusError, Sphere};
@@ -23,7 +23,7 @@ pub enum RadiusError {
         /// What was given, in metres.
         value: f32,
     },
-    /// A round shape below [`MIN_RADIUS`].
+    /// The radius of a round shape is below [`MIN_RADIUS`].
     TooSmall {
         /// What was given, in metres.
         value: f32,
@@ -57,7 +57,7 @@ impl core::fmt::Display for RadiusError {
 
 impl core::error::Error for RadiusError {}
 
-/// Checks the radius of a shape that is round by itself.
+/// Checks the radius of a shape that is round by nature.
 pub(crate) fn check_round(radius: f32, core_reach: f64) -> Result<(), RadiusError> {
     check_rounding(radius, core_reach)?;
     if radius < MIN_RADIUS {
@@ -66,7 +66,7 @@ pub(crate) fn check_round(radius: f32, core_reach: f64) -> Result<(), RadiusErro
     Ok(())
 }
 
-/// Checks a rounding of a core that reaches `core_reach` metres from its origin. Zero means none.
+/// Checks the rounding of a core that reaches `core_reach` metres from its origin. Zero means none.
 pub(crate) fn check_rounding(radius: f32, core_reach: f64) -> Result<(), RadiusError> {
     if !radius.is_finite() {
         return Err(RadiusError::NotFinite { value: radius });
@@ -81,7 +81,7 @@ pub(crate) fn check_rounding(radius: f32, core_reach: f64) -> Result<(), RadiusE
     Ok(())
 }
 
-/// A bounding radius of a core, in f32, with its rounding added; rounded up.
+/// The bounding radius of a core plus its rounding, rounded up to f32.
 #[inline]
 pub(crate) fn grown(core: f32, radius: f32) -> f32 {
     if radius == 0.0 { core } else { round_up(f64::from(core) + f64::from(radius)) }

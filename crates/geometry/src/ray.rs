@@ -4,8 +4,8 @@ use crate::direction::{DirectionError, check_direction};
 use crate::pose3::{PoseError, check_position};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A ray in the plane: from an origin, in a direction of any length but zero. A parameter t along it means
-/// origin + t direction.
+/// A ray in the plane: an origin, and a direction of any length but zero. The point at parameter t is origin + t
+/// direction.
 ///
 /// ```
 /// use asunder_geometry::{DirectionError, Ray2, RayError, glam::{DVec2, Vec2}};
@@ -24,7 +24,7 @@ impl Ray2 {
     /// A ray from its origin, in metres (`Vec2`, `DVec2`, or an array of f64), and its direction.
     ///
     /// # Errors
-    /// What is not finite, an origin beyond 1e9 m on an axis, and a zero direction.
+    /// Numbers that are not finite, an origin beyond 1e9 m on an axis, and a zero direction.
     pub fn new(origin: impl Into<DVec2>, direction: Vec2) -> Result<Self, RayError> {
         let origin = origin.into();
         check_position(&origin.to_array()).map_err(RayError::Origin)?;
@@ -33,8 +33,8 @@ impl Ray2 {
     }
 
     /// A ray from one point towards another, both in metres (`Vec2`, `DVec2`, or an array of f64): a line of sight. Its
-    /// direction is all of the way, so that a distance along it is a share of the way, and 1 is the limit of a question
-    /// about what stands between. The direction is f32: the end is off by up to 1e-7 of the way.
+    /// direction is the whole way, so that a distance along it is a fraction of the way, and a query for what is
+    /// between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the way.
     ///
     /// ```
     /// use asunder_geometry::{Ray2, RayError, glam::DVec2};
@@ -45,13 +45,13 @@ impl Ray2 {
     /// ```
     ///
     /// # Errors
-    /// As [`Ray2::new`]; zero is the way between two points that are equal, or whose way is below what an f32 holds.
+    /// As [`Ray2::new`]; the direction is zero if the points are equal, or closer than f32 can represent.
     pub fn between(from: impl Into<DVec2>, to: impl Into<DVec2>) -> Result<Self, RayError> {
         let from = from.into();
         Self::new(from, (to.into() - from).as_vec2())
     }
 
-    /// Where it starts, in metres.
+    /// The origin, in metres.
     ///
     /// ```
     /// use asunder_geometry::{Ray2, RayError, glam::{DVec2, Vec2}};
@@ -64,21 +64,20 @@ impl Ray2 {
         self.origin
     }
 
-    /// Where it goes, bit for bit as given.
+    /// The direction, bit for bit as given.
     #[inline]
     pub const fn direction(&self) -> Vec2 {
         self.direction
     }
 
-    /// The point at a parameter along it.
+    /// The point at a parameter.
     #[inline]
     pub fn at(&self, t: f64) -> DVec2 {
         self.origin + self.direction.as_dvec2() * t
     }
 }
 
-/// A ray in space: from an origin, in a direction of any length but zero. A parameter t along it means
-/// origin + t direction.
+/// A ray in space: an origin, and a direction of any length but zero. The point at parameter t is origin + t direction.
 ///
 /// ```
 /// use asunder_geometry::{DirectionError, Ray3, RayError, glam::{DVec3, Vec3}};
@@ -97,7 +96,7 @@ impl Ray3 {
     /// A ray from its origin, in metres (`Vec3`, `DVec3`, or an array of f64), and its direction.
     ///
     /// # Errors
-    /// What is not finite, an origin beyond 1e9 m on an axis, and a zero direction.
+    /// Numbers that are not finite, an origin beyond 1e9 m on an axis, and a zero direction.
     pub fn new(origin: impl Into<DVec3>, direction: Vec3) -> Result<Self, RayError> {
         let origin = origin.into();
         check_position(&origin.to_array()).map_err(RayError::Origin)?;
@@ -106,8 +105,8 @@ impl Ray3 {
     }
 
     /// A ray from one point towards another, both in metres (`Vec3`, `DVec3`, or an array of f64): a line of sight. Its
-    /// direction is all of the way, so that a distance along it is a share of the way, and 1 is the limit of a question
-    /// about what stands between. The direction is f32: the end is off by up to 1e-7 of the way.
+    /// direction is the whole way, so that a distance along it is a fraction of the way, and a query for what is
+    /// between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the way.
     ///
     /// ```
     /// use asunder_geometry::{Ray3, RayError, glam::DVec3};
@@ -118,13 +117,13 @@ impl Ray3 {
     /// ```
     ///
     /// # Errors
-    /// As [`Ray3::new`]; zero is the way between two points that are equal, or whose way is below what an f32 holds.
+    /// As [`Ray3::new`]; the direction is zero if the points are equal, or closer than f32 can represent.
     pub fn between(from: impl Into<DVec3>, to: impl Into<DVec3>) -> Result<Self, RayError> {
         let from = from.into();
         Self::new(from, (to.into() - from).as_vec3())
     }
 
-    /// Where it starts, in metres.
+    /// The origin, in metres.
     ///
     /// ```
     /// use asunder_geometry::{Ray3, RayError, glam::{DVec3, Vec3}};
@@ -137,20 +136,20 @@ impl Ray3 {
         self.origin
     }
 
-    /// Where it goes, bit for bit as given.
+    /// The direction, bit for bit as given.
     #[inline]
     pub const fn direction(&self) -> Vec3 {
         self.direction
     }
 
-    /// The point at a parameter along it.
+    /// The point at a parameter.
     #[inline]
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + self.direction.as_dvec3() * t
     }
 }
 
-/// Why a ray was refused.
+/// Why a ray was rejected.
 ///
 /// ```
 /// use asunder_geometry::{PoseError, Ray3, RayError, glam::Vec3};
@@ -160,9 +159,9 @@ impl Ray3 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RayError {
-    /// What is wrong with its origin.
+    /// Its origin is invalid.
     Origin(PoseError),
-    /// What is wrong with its direction.
+    /// Its direction is invalid.
     Direction(DirectionError),
 }
 

@@ -43,8 +43,7 @@ impl Rect {
         Ok(Self { half_extents, core_radius, radius: 0.0 })
     }
 
-    /// The same rectangle with everything within `radius` metres added: round corners, and larger by the radius on
-    /// every side. Zero takes the rounding away.
+    /// The same rectangle expanded by `radius` metres on every side, with round corners. Zero removes the rounding.
     ///
     /// ```
     /// use asunder_geometry::{Rect, glam::{DVec2, Vec2}};
@@ -98,10 +97,10 @@ impl Rect {
         round_down(f64::from(self.half_extents.x.min(self.half_extents.y)) + f64::from(self.radius))
     }
 
-    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding.
+    /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
-        // The greater of a NaN and zero is zero.
+        // `max` of NaN and zero is zero.
         let beyond = (point.abs() - self.half_extents.as_dvec2()).max(DVec2::ZERO);
         !point.is_nan() && beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }

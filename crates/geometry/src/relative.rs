@@ -1,4 +1,4 @@
-//! Poses in the axes of others: what is held, carried and mounted.
+//! Poses relative to others, for things that are held, carried or mounted.
 
 use crate::basis3::turn_between;
 use crate::pose2::{Pose2, Rotation2};
@@ -6,11 +6,10 @@ use crate::pose3::{Pose3, PoseError};
 use glam::Quat;
 
 impl Pose3 {
-    /// Where something is in the world that has this pose in the axes of another: a lantern in a hand, a wheel on a
-    /// cart.
+    /// The world pose of something whose pose in the axes of `self` is `local`: a lantern in a hand, a wheel on a cart.
     ///
-    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity
-    /// it is exact. The rotation is of any length, as ever. [`Pose3::relative_to`] undoes it.
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; it is exact if one
+    /// of both is the identity. The quaternion may have any length. [`Pose3::relative_to`] is the inverse.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
@@ -31,10 +30,10 @@ impl Pose3 {
         Self::new(self.transform(local.position()), rounded(rotation))
     }
 
-    /// This pose as another one sees it: what [`Pose3::compose`] undoes. Of the identity it is the inverse of the
-    /// other.
+    /// This pose in the axes of another one: the inverse of [`Pose3::compose`]. For the identity it gives the other's
+    /// inverse.
     ///
-    /// Positions are subtracted before they are turned, so that it is as good far from the origin.
+    /// Positions are subtracted before they are rotated, so that it is as accurate far from the origin.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
@@ -56,21 +55,21 @@ impl Pose3 {
     }
 }
 
-/// A quaternion that is not zero, rounded to f32, and of a length that is one for f32: a power of two more or less of
-/// it loses nothing.
+/// A non-zero quaternion rounded to f32. If its length is far from one, it is first scaled by a power of two, which is
+/// exact.
 fn rounded(quaternion: [f64; 4]) -> Quat {
     let most = quaternion.into_iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-    // Its exponent, taken away where it is far from that of one.
+    // Removes the exponent if it is far from that of one.
     let exponent = most.to_bits() >> 52;
     let scale = if (2e-3..=2e3).contains(&most) { 1.0 } else { f64::from_bits((2046 - exponent) << 52) };
     Quat::from_array(quaternion.map(|part| (part * scale) as f32))
 }
 
 impl Pose2 {
-    /// Where something is in the world that has this pose in the axes of another: a turret on a tank.
+    /// The world pose of something whose pose in the axes of `self` is `local`: a turret on a tank.
     ///
-    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; beside the identity
-    /// it is exact. [`Pose2::relative_to`] undoes it.
+    /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; it is exact if one
+    /// of both is the identity. [`Pose2::relative_to`] is the inverse.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
@@ -89,8 +88,8 @@ impl Pose2 {
         Self::new(self.transform(local.position()), self.rotation().then(local.rotation(), 1.0))
     }
 
-    /// This pose as another one sees it: what [`Pose2::compose`] undoes. Of the identity it is the inverse of the
-    /// other.
+    /// This pose in the axes of another one: the inverse of [`Pose2::compose`]. For the identity it gives the other's
+    /// inverse.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
@@ -108,7 +107,7 @@ impl Pose2 {
     }
 }
 
-/// One rotation after another: the right one first, rounded to f32.
+/// The product of two rotations, the right one applied first, rounded to f32.
 ///
 /// ```
 /// use asunder_geometry::{Rotation2, glam::DVec2};
@@ -127,7 +126,7 @@ impl core::ops::Mul for Rotation2 {
 }
 
 impl Rotation2 {
-    /// The rotation that undoes this one.
+    /// The inverse rotation.
     ///
     /// ```
     /// use asunder_geometry::Rotation2;
@@ -139,7 +138,7 @@ impl Rotation2 {
         Self::IDENTITY.then(self, -1.0)
     }
 
-    /// This rotation and another one after it, or its inverse, by a sign.
+    /// This rotation combined with another one (`sign` 1) or its inverse (-1).
     fn then(self, other: Self, sign: f64) -> Self {
         if other == Self::IDENTITY {
             return self;

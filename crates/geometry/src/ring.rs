@@ -4,10 +4,10 @@ use core::cmp::Ordering;
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 use glam::DVec2;
 
-/// The corners of a regular polygon about the origin, counter-clockwise from the x axis on.
+/// The corners of a regular polygon about the origin, counter-clockwise from the x axis.
 ///
-/// Sine and cosine are asked for the first eighth of a turn alone, and mirrored from there: a corner on an axis is on
-/// it exactly, and what is opposite by symmetry has the same bits.
+/// Sine and cosine are computed for the first eighth of a turn only, and mirrored from there: a corner on an axis is
+/// exactly on it, and symmetric corners have the same bits.
 pub(crate) fn corners(sides: usize, radius: f32) -> impl Iterator<Item = DVec2> {
     (0..sides).map(move |corner| {
         let (quarter, rest) = (4 * corner / sides, 4 * corner % sides);

@@ -1,13 +1,12 @@
-//! What poses, rays and shapes look like to serde.
+//! The serde forms of poses, rays and shapes.
 //!
-//! Every type has a plain form: numbers and lists, named as the type's own readers are. What is stored is the form
-//! made of a value; what is loaded is a form, from which the value is made by the type's constructor, so that
-//! nothing comes in that could not have been made here, and by the same bits. Whatever can be worked out is not stored.
-//! One exception: the faces of a hull, which a flat face may be several of.
+//! Every type has a plain form: numbers and lists, named like the type's getters. A value is stored as its form. When
+//! loaded, the form goes through the type's constructor, so that no value comes in that could not have been made here,
+//! and it has the same bits. Derived data are not stored, except for the faces of a hull, as merging cannot be repeated
+//! from the vertices alone.
 //!
-//! Numbers keep every bit in any binary format. Of text formats, serde_json reads floats to the last bit only with
-//! its feature
-//! `float_roundtrip`.
+//! Numbers keep every bit in any binary format. Among text formats, serde_json reads floats to the last bit only with
+//! its feature `float_roundtrip`.
 
 mod plane;
 mod space;
@@ -16,7 +15,7 @@ use core::fmt::Display;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// The plain twin of a type: what is stored of it.
+/// The plain form of a type, which is stored.
 trait Form: Sized {
     type Of;
     type Error: Display;
@@ -32,7 +31,7 @@ fn load<'de, F: Form + Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) 
     F::deserialize(deserializer)?.build().map_err(D::Error::custom)
 }
 
-/// Serde's two traits for each type, by way of its form.
+/// Implements serde's two traits for each type through its form.
 macro_rules! stored_as {
     ($($type:ty: $form:ty,)*) => {$(
         impl serde::Serialize for $type {
@@ -50,7 +49,7 @@ macro_rules! stored_as {
 }
 use stored_as;
 
-/// What an error says, where a type has errors of several kinds.
+/// The text of an error, for types with several kinds of errors.
 fn said(error: impl Display) -> String {
     error.to_string()
 }

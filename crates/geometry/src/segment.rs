@@ -1,4 +1,4 @@
-//! Segments, and capsules, which are segments with everything within a radius added.
+//! Segments, and capsules, which are segments expanded by a radius.
 
 use crate::aabb::{Aabb2, Aabb3};
 use crate::outward::{around2, around3, round_up};
@@ -14,8 +14,8 @@ use robust::{Coord, orient2d};
 #[doc = include_str!("../doc/segment2.svg")]
 ///
 /// # Costs and limits
-/// It overlaps what it crosses, with the depth that moves it out to one of its two sides; on another segment, that is
-/// zero where they merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+/// It overlaps shapes that it crosses; the depth is the way out to one of its two sides, which is zero for two segments
+/// that merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Segment2, glam::{DVec2, Vec2}};
@@ -34,8 +34,8 @@ pub struct Segment2 {
 #[doc = include_str!("../doc/capsule2.svg")]
 ///
 /// # Costs and limits
-/// As a segment: two normals. Lying on an edge it has two contact points. Radius from 1e-6 m; all of it within 1e6 m
-/// of the shape's origin.
+/// Like a segment, it has two normals. If it lies on an edge it has two contact points. Radius from 1e-6 m; all of it
+/// within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Capsule2, glam::{DVec2, Vec2}};
@@ -77,7 +77,7 @@ impl Segment2 {
         self.ends
     }
 
-    /// The centre that the bounding radius is about: the middle, rounded to f32.
+    /// The centre of the bounding radius: the middle, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec2 {
         let [from, to] = self.ends.map(|end| end.as_dvec2());
@@ -143,7 +143,7 @@ impl Capsule2 {
         grown(self.segment.outer_radius, self.radius)
     }
 
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let (point, [from, to]) = (point.into(), self.segment.ends.map(|end| end.as_dvec2()));
         let along = to - from;
@@ -163,8 +163,8 @@ impl Capsule2 {
 #[doc = include_str!("../doc/segment3.svg")]
 ///
 /// # Costs and limits
-/// Two segments, or a segment and a capsule, cost a closed form; against faces it adds one edge to the test. Two
-/// segments that cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
+/// Two segments, or a segment and a capsule, are a closed form; against faces, a segment is one more edge in the test.
+/// Two segments that cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
 /// use asunder_geometry::{Segment3, glam::{DVec3, Vec3}};
@@ -183,7 +183,7 @@ pub struct Segment3 {
 #[doc = include_str!("../doc/capsule3.svg")]
 ///
 /// # Costs and limits
-/// Two capsules cost a closed form; a capsule against a hull of n edges n arc tests. Lying on a face, or beside
+/// Two capsules are a closed form; a capsule against a hull of n edges takes n arc tests. Lying on a face, or along
 /// another capsule, it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's origin.
 ///
 /// ```
@@ -220,7 +220,7 @@ impl Segment3 {
         self.ends
     }
 
-    /// The centre that the bounding radius is about: the middle, rounded to f32.
+    /// The centre of the bounding radius: the middle, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
         let [from, to] = self.ends.map(|end| end.as_dvec3());
@@ -286,7 +286,7 @@ impl Capsule3 {
         grown(self.segment.outer_radius, self.radius)
     }
 
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let (point, [from, to]) = (point.into(), self.segment.ends.map(|end| end.as_dvec3()));
         let along = to - from;
@@ -301,7 +301,7 @@ impl Capsule3 {
     }
 }
 
-/// Why a capsule was refused.
+/// Why a capsule was rejected.
 ///
 /// ```
 /// use asunder_geometry::{Capsule3, CapsuleError, RadiusError, VertexError};
@@ -318,9 +318,9 @@ pub enum CapsuleError {
         /// What was given, in metres.
         value: f32,
     },
-    /// What is wrong with its segment.
+    /// Its segment is invalid.
     Ends(VertexError),
-    /// What is wrong with its radius.
+    /// Its radius is invalid.
     Radius(RadiusError),
 }
 

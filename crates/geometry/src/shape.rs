@@ -1,7 +1,7 @@
-//! The closed sets of shapes a body can have, one a dimension.
+//! The closed sets of shapes that a body can have, one for each dimension.
 //!
-//! Every bounded convex shape is a *core* (point, segment, polygon, polyhedron) with everything within a *radius* of it
-//! added. The narrow phase knows no other kinds.
+//! Every bounded convex shape is a *core* (point, segment, polygon, polyhedron) expanded by a *radius*. The narrow
+//! phase knows no other kinds.
 
 use crate::aabb::{Aabb2, Aabb3};
 use crate::chain::Chain;
@@ -120,7 +120,7 @@ pub enum Shape3 {
     Segment(Segment3),
     /// Several convex parts.
     Compound(Compound3),
-    /// Triangles that make up a level.
+    /// A triangle mesh, for levels.
     TriMesh(TriMesh),
     /// Ground with one height above each point of a grid.
     HeightField(HeightField),
@@ -182,7 +182,7 @@ impl Shape2 {
         }
     }
 
-    /// Whether it is ground, which bodies stand on and which is always fixed: a chain. Two of a kind have no contacts.
+    /// Whether it is ground, on which bodies stand and which is always fixed: a chain. Two of them have no contacts.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Shape2, glam::Vec2};
@@ -195,15 +195,14 @@ impl Shape2 {
         matches!(self, Self::Chain(_))
     }
 
-    /// What is left without the rounding. A half-plane, a compound and a chain have none: their core has no
-    /// vertices.
+    /// The shape without its rounding. A half-plane, a compound and a chain have no core: theirs has no vertices.
     #[inline]
     pub fn core(&self) -> Core2<'_> {
         Core2::of(self)
     }
 
-    /// Whether the closed shape holds a local point, in metres (`Vec2`, `DVec2`). Nothing holds a NaN. Cost: linear in
-    /// the vertices; of a chain, in those near it.
+    /// Whether the closed shape contains a local point, in metres (`Vec2`, `DVec2`); false for NaN. Cost: linear in the
+    /// vertices; for a chain, in those near the point.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         self.holds(point.into())
     }
@@ -221,14 +220,15 @@ impl Shape2 {
         }
     }
 
-    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
+    /// The support point: the local point furthest along a direction of any length, in metres; among equals, the first
     /// vertex. `None` for a half-plane, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec2>) -> Option<DVec2> {
         self.furthest_along(direction.into())
     }
 
     fn furthest_along(&self, direction: DVec2) -> Option<DVec2> {
-        // By its largest component first: squares of very long and very short ones leave the range of f64.
+        // Divided by the largest component first, since squares of very long or very short vectors leave the range of
+        // f64.
         let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Chain(chain) = self {
             return chain.furthest(along);
@@ -310,20 +310,20 @@ impl Shape3 {
         }
     }
 
-    /// Whether it is ground: a triangle mesh or a height field. Bodies that carry it are always fixed.
+    /// Whether it is ground, a triangle mesh or a height field. Bodies with such a shape are always fixed.
     #[inline]
     pub const fn is_ground(&self) -> bool {
         matches!(self, Self::TriMesh(_) | Self::HeightField(_))
     }
 
-    /// What is left without the rounding. A half-space, a compound and ground have none: their core has no vertices.
+    /// The shape without its rounding. A half-space, a compound and ground have no core: theirs has no vertices.
     #[inline]
     pub fn core(&self) -> Core3<'_> {
         Core3::of(self)
     }
 
-    /// Whether the closed shape holds a local point, in metres (`Vec3`, `DVec3`). Nothing holds a NaN. Cost: linear in
-    /// the vertices.
+    /// Whether the closed shape contains a local point, in metres (`Vec3`, `DVec3`); false for NaN. Cost: linear in the
+    /// vertices.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         self.holds(point.into())
     }
@@ -343,14 +343,15 @@ impl Shape3 {
         }
     }
 
-    /// The local point furthest along a direction of any length, in metres: the support mapping. Of equals, the first
+    /// The support point: the local point furthest along a direction of any length, in metres; among equals, the first
     /// vertex. `None` for a half-space, or a direction that is zero or not finite. Cost: linear in the vertices.
     pub fn support(&self, direction: impl Into<DVec3>) -> Option<DVec3> {
         self.furthest_along(direction.into())
     }
 
     fn furthest_along(&self, direction: DVec3) -> Option<DVec3> {
-        // By its largest component first: squares of very long and very short ones leave the range of f64.
+        // Divided by the largest component first, since squares of very long or very short vectors leave the range of
+        // f64.
         let along = (direction / direction.abs().max_element()).try_normalize()?;
         if let Self::Compound(compound) = self {
             let of_part = |part: &Part3| {

@@ -1,7 +1,7 @@
-//! What shapes of many numbers print with `{:?}`.
+//! `Debug` output of shapes with many numbers.
 //!
-//! What they were made of, where that is a few lines, and how much of it, where it may be millions; never the tables
-//! that are looked up in. Ground of any size is one line of a log.
+//! Prints what they were made from if that is a few lines, and only how much it is where there may be millions; never
+//! the derived tables. Ground of any size takes one line in a log.
 
 use crate::{Chain, Compound2, Compound3, HeightField, Hull, Polygon, TriMesh};
 use core::fmt::{Debug, Formatter, Result};
@@ -27,7 +27,7 @@ impl Debug for Polygon {
     }
 }
 
-/// How many vertices and triangles it has, and how far they reach around its center.
+/// The number of vertices and triangles, and how far they reach around the center.
 impl Debug for TriMesh {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.debug_struct("TriMesh")
@@ -40,7 +40,7 @@ impl Debug for TriMesh {
     }
 }
 
-/// How many lines it has, and how far its cells reach.
+/// The number of columns and rows, and the size of a cell.
 impl Debug for HeightField {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.debug_struct("HeightField")
@@ -54,7 +54,7 @@ impl Debug for HeightField {
     }
 }
 
-/// How many vertices it has, and how far they reach around its center.
+/// The number of vertices, and how far they reach around the center.
 impl Debug for Chain {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         f.debug_struct("Chain")

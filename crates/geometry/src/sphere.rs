@@ -6,13 +6,13 @@ use crate::pose3::Pose3;
 use crate::radius::{RadiusError, check_round};
 use glam::DVec3;
 
-/// A ball about its own origin, given by its radius in metres: a point with everything within the radius added.
+/// A ball about its own origin, given by its radius in metres: a point expanded by the radius.
 ///
 #[doc = include_str!("../doc/sphere.svg")]
 ///
 /// # Costs and limits
-/// The cheapest shape: two spheres cost one root, a sphere and a half-space one dot product. A
-/// contact is always one point. Radius 1e-6 to 1e6 m.
+/// The cheapest shape: two spheres take one square root, a sphere and a half-space one dot product. A contact is always
+/// one point. Radius 1e-6 to 1e6 m.
 ///
 /// ```
 /// use asunder_geometry::{Sphere, glam::DVec3};
@@ -50,14 +50,14 @@ impl Sphere {
         self.radius
     }
 
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         point.into().length_squared() <= f64::from(self.radius) * f64::from(self.radius)
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
-        // No axes: no rotation moves the centre.
+        // Needs no axes, as no rotation moves the centre.
         around(DVec3::ZERO, DVec3::ZERO, pose, f64::from(margin) + f64::from(self.radius))
     }
 }

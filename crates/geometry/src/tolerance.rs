@@ -1,17 +1,17 @@
 //! Every tolerance and limit of the engine, in one place.
 //!
-//! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of
-//! pebbles and a scene of mountains are answered alike. Only the *limits* at the end carry a unit.
+//! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of pebbles
+//! and a scene of mountains get the same treatment. Only the *limits* at the end carry a unit.
 
-/// Share of a pair's size at which a cast in the plane calls two shapes that still have a gap touching.
+/// Gap, as a share of a pair's size, at which a cast in the plane reports two shapes as touching.
 ///
-/// A cast comes so close by axes alone, and then takes the last step along the axis that it has; what is left is in the
-/// impact's error, and is mostly rounding. A pair that passes by within it counts as touching. A larger value makes
-/// wider misses hits; with a smaller one the axis across the last gap is rounding (1e-16 of the size over the gap),
-/// and so are the normals.
+/// A cast advances by separating axes until the gap is this small, and takes the last step along the axis that it has
+/// then; what is left is in the impact's error, and is mostly rounding. A pair that passes by within this gap counts as
+/// touching. A larger value turns wider misses into hits; with a smaller one the axis across the last gap, and so the
+/// normal, is rounding (1e-16 of the size over the gap).
 pub const CAST_GAP2: f64 = 1e-8;
 
-/// Share of a hull's outer radius within which neighbouring facets count as one flat face.
+/// Share of half the diagonal of a hull's box within which neighbouring facets count as one flat face.
 ///
 /// f32 vertices of a truly flat face lie within 1.2e-7 of its plane, so this merges what rounding split. Larger
 /// values merge real facets and cost depth accuracy (the planarity error enters every reported error); smaller
@@ -20,166 +20,170 @@ pub const COPLANAR: f64 = 2.5e-7;
 
 /// Sine of the angle between two edges below which their cross product is not used as an axis.
 ///
-/// Above it, the axis is off by rounding over the sine; below it, the face normals beside the edges give the same
-/// depth within a few sines of the pair's size. Here both are some 1e-7 at worst; every axis is verified by full
-/// projection, and every pair carries what its own edges leave open in its error. A larger or smaller value makes that
-/// larger on one side.
+/// Above it, the axis is off by rounding divided by the sine; below it, the normals of the faces beside the edges give
+/// the same depth up to a few times the sine, as a share of the pair's size. At this value both errors are some 1e-7 at
+/// worst; a larger or a smaller value increases one of them. Every axis is verified by full projection, and the error
+/// of every pair includes what its own edges leave open.
 pub const PARALLEL_EDGES: f64 = 4e-8;
 
-/// Slack, in units of unit vectors' dot products, within which two arcs of the Gauss map are kept as crossing.
+/// Slack, as a dot product of unit vectors, within which two arcs of the Gauss map still count as crossing.
 ///
-/// Derived normals are within 1e-7 of the true ones for well-shaped faces. A pair kept needlessly costs one
-/// verified axis; a pair dropped wrongly costs the true depth.
+/// Computed normals are within 1e-7 of the true ones for well-shaped faces. A pair of edges kept needlessly costs one
+/// verified axis; a pair dropped wrongly loses the true depth.
 pub const ARC_SLACK: f64 = 1e-6;
 
 /// Share of the smaller shape's diameter by which another kind of axis must beat a face of A before the contact is
 /// built on it.
 ///
-/// Keeps the reference face from flipping between ties. It is also the largest regret of a reported normal, rounding
-/// apart, for which it is raised where positions are far apart and shapes small.
+/// Keeps the reference face from flipping between ties. It also bounds how much more depth a reported normal may have
+/// than the best one, apart from rounding; where shapes are small and positions far apart, it is raised to cover
+/// rounding.
 pub const FACE_PREFERENCE: f64 = 5e-7;
 
-/// Share of the smaller shape's diameter within which corners of a patch count as equally deep, where four of more are
-/// chosen to hold it.
+/// Difference in depth, as a share of the smaller shape's diameter, within which corners of a contact patch count as
+/// equally deep when four of them are chosen to represent it.
 ///
-/// A body that a solver holds at rest leans now here and now there, by up to some 1e-5 rad, which lifts one side of its
-/// face by as much of its width. With a smaller value the deepest corner changes with every lean, and with it which
-/// four are told; with a larger one, what leans more may be held beside its deepest corner by as much. Twice as far as
-/// manifolds are moved along. Only the choice of corners depends on it: what is told of the pair, and of each corner,
-/// is exact. (2^-12 was tried: ids stay at 1e-4 rad, too, but a box of a metre may stand 0.4 mm beside its deepest
-/// corner.)
+/// A body that a solver holds at rest rocks by up to some 1e-5 rad, which lifts one side of its face by that share of
+/// its width. With a smaller value the deepest corner changes with every rocking, and with it the four that are
+/// reported; with a larger one, a body that leans further may be supported beside its deepest corner by as much. It is
+/// twice as far as manifolds are moved along. Only the choice of corners depends on it: the numbers of the pair and of
+/// each corner are exact. (2^-12 was tried: ids then stay at 1e-4 rad, too, but a box of a metre may stand 0.4 mm
+/// beside its deepest corner.)
 pub const EVEN_DEPTH: f64 = 1.0 / 32_768.0;
 
-/// How near a contact point must be to a vertex or an edge to be named after it, as a share of the smaller shape's
-/// diameter.
+/// How near a contact point must be to a vertex or an edge to get its feature id from it, as a share of the smaller
+/// shape's diameter.
 ///
-/// Bodies that a solver holds tremble by up to a thousandth of their size. With a smaller value the names of points
+/// Bodies that a solver holds tremble by up to a thousandth of their size. With a smaller value the ids of points
 /// between crates that stand squarely on each other change from frame to frame; with a larger one, those of bodies that
-/// slide and roll do: with four times this, 14 % more new names in a crowd, with this 4 %, and with either 13 % fewer
-/// in a heap of boxes. Names alone depend on it.
+/// slide and roll do: with four times this there are 14 % more new ids in a crowd, with this 4 %, and with either 13 %
+/// fewer in a heap of boxes. Only ids depend on it.
 pub const SAME_PLACE: f64 = 1.0 / 512.0;
 
-/// Share of their area within which four corners of a patch hold it as well as the four that hold it best.
+/// Share of area within which four corners of a contact patch count as representing it as well as the best four.
 ///
-/// A regular face of many corners has several fours of the same area, and a body that trembles by 1e-4 rad changes
-/// areas by some 2e-4, where sides of two faces cross. A smaller value leaves it to that which four are told; a larger
-/// one takes a worse four of faces of more than sixty corners, and brings nearer the 5 % that may be lost in all.
+/// A regular face with many corners has several sets of four with the same area, and a body that trembles by 1e-4 rad
+/// changes areas by some 2e-4, where sides of two faces cross. With a smaller value that trembling decides which four
+/// are reported; a larger one takes a worse four on faces of more than sixty corners, and comes nearer to the 5 % that
+/// may be lost in all.
 pub const EVEN_AREA: f64 = 1.0 / 1024.0;
 
-/// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other: 0.1 rad.
+/// Cosine of the angle up to which two faces beside a pair of touching edges count as resting on each other (0.1 rad).
 ///
 /// Only the choice of contact points depends on it, never an axis or a depth. A smaller angle leaves slightly tilted
-/// boxes standing on one point; at a larger one the far corners are out of any useful margin.
+/// boxes standing on one point; with a larger one the far corners are beyond any useful margin.
 pub const ALIGNED_FACES: f64 = 0.995;
 
-/// Share of a pair's size at which the distance iteration stops: the gap between its two certified bounds.
+/// Gap between the two certified bounds of the distance iteration, as a share of a pair's size, at which it stops.
 pub const DISTANCE_GAP: f64 = 1e-12;
 
-/// Share of a pair's size up to which shapes that move towards each other count as having met, where no certified step
-/// brings them closer at once.
+/// Gap, as a share of a pair's size, up to which approaching shapes count as having met if no certified step brings
+/// them closer at once.
 ///
-/// A step is along one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round
-/// or turning shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two
-/// where shapes graze; a larger one stops bodies visibly short.
+/// A step uses one axis, and for polytopes the last one ends at the contact up to [`IMPACT_REST`]; only round or
+/// turning shapes stop here. It is part of every impact's stated error. A smaller value costs a step or two where
+/// shapes graze; with a larger one bodies stop visibly short.
 pub const IMPACT_GAP: f64 = 1e-6;
 
-/// Share of a pair's size that a certified step leaves between moving shapes.
+/// Gap that a certified step leaves between moving shapes, as a share of a pair's size.
 ///
-/// Closer, the distance iteration sees little but rounding: it has 1e-15 of the size. It is part of every impact's
-/// stated error, and far below an f32 rounding of the size.
+/// Any closer, the distance iteration, whose rounding is 1e-15 of the size, sees little else. It is part of every
+/// impact's stated error, and far below an f32 rounding of the size.
 pub const IMPACT_REST: f64 = 1e-9;
 
-/// Share of a body's thickness within which what it meets next counts as level with what it touches.
+/// Share of a body's thickness within which the next thing that it meets counts as level with what it touches.
 ///
-/// It is what a body may end deeper in ground that it passes over, and how far in front of it that may begin: see
-/// `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a ball that rolls at
-/// every bend of its floor.
+/// It is how much deeper a body may end in ground that it passes over, and how far in front of the body that ground may
+/// begin: see `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a rolling
+/// ball at every bend of its floor.
 pub const NEXT_LEVEL: f64 = 1.0 / 64.0;
 
-/// Share of its outer radius that a body's thickness counts for at least where [`NEXT_LEVEL`] is a share of it: so that
-/// segments and thin plates do not stop at the rounding of a floor's corners.
+/// Least thickness of a body for [`NEXT_LEVEL`], as a share of its outer radius, so that segments and thin plates do
+/// not stop at the rounding of a floor's corners.
 pub const NEXT_THICKNESS: f64 = 1e-4;
 
 /// Share of a cloud's size by which a point must stand out of the hull of those before it to count as a vertex that no
 /// merging of facets takes away: 64 times [`COPLANAR`].
 ///
-/// Only hulls with more than four times the allowed number of such points are refused by it, early. A smaller value
-/// could refuse what merging would make small; a larger one lets hopeless clouds be built to the end before they are
-/// refused.
+/// It only serves to reject, early, hulls with more than four times the allowed number of such points. A smaller value
+/// could reject hulls that merging would make small enough; with a larger one hopeless clouds are built to the end
+/// before they are rejected.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
-/// Share of its inner radius that a core's ball keeps on its arm, which is a segment about the centre.
+/// Share of the inner radius of the ball that fits everywhere on a core's arm, a segment about the centre.
 ///
-/// A face that the arm runs along but for rounding leaves the whole ball no way at all, and a slightly smaller one as
-/// much as there is. Only proofs that spare work depend on it: a smaller value proves less of what overlaps deeply, a
-/// larger one less of hulls that are long only nearly along an edge.
+/// A face that is parallel to the arm up to rounding would leave the full ball no room to move, but a slightly smaller
+/// one all the room there is. Only shortcuts depend on it: a smaller value proves fewer deep overlaps, a larger one
+/// fewer of hulls that are long only nearly along an edge.
 pub const ARM_SHARE: f64 = 63.0 / 64.0;
 
 /// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what
 /// merging at [`COPLANAR`] may leave, with room.
 ///
 /// Faces are derived data that prove nothing, so a larger value costs depth accuracy (the planarity error enters every
-/// reported error) and a smaller one would refuse hulls that were built here. Where merging leaves more, of what is thinner
-/// than rounding, the builder keeps the facets.
+/// reported error), and a smaller one would reject hulls that were built here. Where merging would leave more, in hulls
+/// thinner than rounding, the builder keeps the facets.
 pub const MERGED_PLANARITY: f64 = 8.0 * COPLANAR;
 
-/// Share of its coordinates by which a vertex of a chain may lie beside the line of its neighbours and count as on it.
+/// Share of its coordinates by which a vertex of a chain may lie off the line of its neighbours and count as on it.
 ///
-/// A line that is cut into segments has vertices rounded to f32, each by 6e-8 of its coordinates, as are the ends that
-/// it is measured from; this is four times as much, for what was computed in f32. A larger value takes bends for
-/// rounding, and contact points lie as much beside the segments; a smaller one lets the rounding of short segments turn
-/// normals.
+/// The vertices of a line that is cut into segments are rounded to f32, each by 6e-8 of its coordinates, as are the
+/// ends that it is measured from; this is four times as much, for vertices computed in f32. A larger value takes bends
+/// for rounding, and contact points lie off the segments by as much; a smaller one lets the rounding of short segments
+/// turn normals.
 pub const STRAIGHT: f64 = 2.0 * (f32::EPSILON as f64);
 
-/// Sine of the angle by which a contact's normal may lean over the end of a surface and still be its own.
+/// Sine of the angle by which a contact's normal may lean over the end of a surface and still count as the surface's
+/// normal.
 ///
-/// Normals of kernels are good to some 1e-7 where a face is touched; what leans by more is a corner's, or none of the
-/// ground's. A larger value is an error that contacts on flat ground may have; a smaller one takes faces for corners.
+/// Normals of kernels are good to some 1e-7 where a face is touched; one that leans by more belongs to a corner, or not
+/// to this ground. A larger value is an error that contacts on flat ground may have; a smaller one takes faces for
+/// corners.
 pub const ALONG_GROUND: f64 = 1e-6;
 
-/// Angle, in radians, up to which contact normals on ground count as one.
+/// Angle, in radians, up to which contact normals on ground count as equal.
 ///
-/// Two points are enough for a body on one plane, and it stands steadier on them than on several pairs. A larger value
-/// merges what is curved; a smaller one leaves a manifold for each facet of what looks flat.
+/// Two points are enough for a body on one plane, and it stands more steadily on them than on several pairs. A larger
+/// value merges curved ground; a smaller one gives ground that looks flat a manifold for each facet.
 pub const ONE_NORMAL: f32 = 1e-4;
 
-/// Cosine of the angle between two faces from which on their corner counts as sharp: 60 degrees.
+/// Cosine of the least angle between two faces whose corner counts as sharp: 60 degrees.
 ///
-/// Beyond a sharp corner, a contact is the neighbour's alone: what stands a little in one face of a step lies deep
-/// behind the other. At a blunt corner it is as deep in both within a factor of one over this. A larger value drops
-/// contacts of short segments; a smaller one lets the steps of stairs push sideways.
+/// Beyond a sharp corner, a contact belongs to the neighbour alone: a body a little deep in one face of a step is far
+/// behind the other. At a blunt corner its depths in both differ by a factor of at most one over this. A larger value
+/// drops contacts of short segments; a smaller one lets the steps of stairs push sideways.
 pub const SHARP_CORNER: f64 = 0.5;
 
-/// Sine of the angle by which the loose end of one-sided ground may push against its front.
+/// Sine of the angle by which a normal at the loose end of one-sided ground may point behind its front.
 ///
-/// What comes from the side, a little tilted, is met by the end, though its normal leads a little backwards; what
-/// comes from behind is not met.
+/// A body that comes from the side, a little tilted, is met by the end although the normal points a little backwards;
+/// one that comes from behind is not.
 pub const BEHIND_END: f64 = 0.2;
 
-/// How far the square of a stored rotation's length in the plane may be from one: both components are rounded to
-/// f32 once.
+/// How far the squared length of a stored rotation in the plane may be from one: both components are rounded to f32
+/// once.
 ///
 /// Twice the rounding of f32, and a little for its square. A larger value would let stored rotations stretch shapes; a
-/// smaller one would refuse rotations that were made here.
+/// smaller one would reject rotations that were made here.
 pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
 
-/// Share of a character's bounding radius that it keeps between itself and everything, unless told otherwise.
+/// Default of the gap that a character keeps between itself and everything, as a share of its bounding radius.
 ///
 /// It must be far above the rounding of positions and the error of casts, so that a character that slides along a
 /// floor never meets the inner edges of its tiles; a larger one becomes visible as hovering.
 pub const SKIN: f32 = 0.01;
 
-/// The least share of its bounding radius that a character keeps between itself and everything, and what
-/// it is pushed clear of solids by.
+/// The least gap that a character keeps between itself and everything, as a share of its bounding radius, and by how
+/// much it is pushed clear of solids.
 ///
-/// A smaller one comes near the error of casts (1e-6 of a pair's size), and then a character could come to touch
-/// what it slides along.
+/// A smaller one comes near the error of casts (1e-6 of a pair's size), so that a character could touch what it slides
+/// along.
 pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 
-/// Share of its skin that a character may lack before it is moved back to it.
+/// Share of its skin by which a character may be too near to something before it is moved away.
 ///
-/// Without slack the rounding of every frame would be undone by a move of the next. A larger one lets the gap change
-/// visibly while it slides.
+/// Without slack every frame would move it to undo the rounding of the last. With a larger one the gap changes visibly
+/// while it slides.
 pub const SKIN_SLACK: f64 = 1.0 / 64.0;
 
 /// Share of a displacement below which a character counts as standing still, the sine below which a direction counts
@@ -188,48 +192,48 @@ pub const SKIN_SLACK: f64 = 1.0 / 64.0;
 /// Above the rounding of f32 normals (6e-8) and displacements; a larger one lets characters creep into corners.
 pub const STANDSTILL: f64 = 1e-6;
 
-/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much
-/// against the way, so that sliding along it leads off.
+/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much against
+/// the motion, so that sliding along it leads away.
 ///
-/// A normal across the way would change nothing, and the next cast would meet the same again. A larger one bends
-/// the way visibly.
+/// A normal perpendicular to the motion would change nothing, and the next cast would meet the same again. A larger
+/// value bends the path visibly.
 pub const GRAZING: f64 = 1e-5;
 
-/// Sine of the angle by which what leans over counts as an upright wall.
+/// Sine of the angle up to which an overhanging surface counts as an upright wall.
 ///
-/// Walls hold back what goes into them sideways; a ceiling turns it downwards. Above the rounding of f32 normals; a
-/// larger one makes walls of ceilings.
+/// A wall stops sideways motion into it; a ceiling turns it downwards. Above the rounding of f32 normals; a larger
+/// value makes walls of ceilings.
 pub const UPRIGHT: f64 = 1e-3;
 
-/// Least cosine between up and the normal where round feet touch the edge of a step. What hangs on to an edge by
-/// less falls off.
+/// Least cosine between up and the normal where round feet touch the edge of a step; with less, the character falls
+/// off.
 ///
-/// A larger one lets round feet slip from stairs that are nearly as high as they are wide; at zero they would hold
-/// on to edges beside them.
+/// With a larger value round feet slip off stairs that are nearly as high as they are wide; at zero they would hold on
+/// to edges beside them.
 pub const EDGE_HOLD: f64 = 0.05;
 
 /// Sine of the angle up to which two directions of contact on ground count as the same, and by which a direction may
 /// lean over an edge or corner of ground towards a face beside it.
 ///
-/// Triangles that were meant to lie in one plane have vertices rounded to f32, so that their normals differ by
-/// that over their height. A larger value merges normals of facets that a smooth ground has on purpose; with a smaller
-/// one a body on a flat floor of thin triangles has several manifolds, and may trip over their edges.
+/// Triangles meant to lie in one plane have vertices rounded to f32, so that their normals differ by that rounding over
+/// their height. A larger value merges normals of facets that smooth ground has on purpose; with a smaller one a body
+/// on a flat floor of thin triangles has several manifolds, and may trip over their edges.
 pub const SAME_NORMAL: f64 = 1e-4;
 
-/// Share of a triangle's extent within which a point counts as lying on it, where all triangles are looked for that
-/// meet in a touched point.
+/// Share of a triangle's extent within which a point counts as lying on it, in the search for all triangles that meet
+/// in a touched point.
 ///
-/// Above the rounding of f32 vertices, so that edges that nearly meet do; a larger value takes faces into account that
-/// are beside the point, and with a smaller one what touches in an inner edge may seem to touch a rim.
+/// Above the rounding of f32 vertices, so that edges that nearly meet count as meeting. A larger value includes faces
+/// that are beside the point; with a smaller one a contact at an inner edge may seem to be at a rim.
 pub const ON_TRIANGLE: f64 = 1e-7;
 
 /// Sine of the angle up to which two neighbouring triangles of ground count as one plane.
 ///
-/// Their edge then gives no normal of its own, and their contact points share a manifold and a name. It is half of
-/// what two normals of one manifold may differ by (1e-4 rad), so that any two triangles of a plane come together, and
-/// above what f32 vertices make of a plane of triangles a thousandth of its size. A larger one takes away edges
-/// that matter; a body that rests on an edge within it has a normal that is off by as much. A smaller one makes
-/// edges of rounding, which cost time.
+/// Their edge then gives no normal, and their contact points share a manifold and its id. It is half of what two
+/// normals of one manifold may differ by (1e-4 rad), so that any two triangles of a plane come together, and above the
+/// rounding of f32 vertices in a plane whose triangles are a thousandth of its size. A larger value removes edges that
+/// matter, and the normal of a body that rests on such an edge is off by as much. A smaller one makes edges of
+/// rounding, which cost time.
 pub const FLAT: f64 = 5e-5;
 
 /// The smallest bounding radius a shape may have, in metres.

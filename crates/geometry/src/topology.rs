@@ -1,4 +1,4 @@
-//! Half-edges: which vertices, edges and faces of a polyhedron meet.
+//! Half-edges: how the vertices, edges and faces of a polyhedron are connected.
 
 use std::sync::LazyLock;
 
@@ -29,7 +29,7 @@ pub struct HalfEdge {
     pub face: u16,
 }
 
-/// The half-edges of a closed polyhedron. Immutable; indices are stable, and feature ids are made of them.
+/// The half-edges of a closed polyhedron. Immutable; indices are stable, and feature ids are made from them.
 ///
 /// ```
 /// use asunder_geometry::Cuboid;
@@ -42,15 +42,15 @@ pub struct HalfEdge {
 pub struct Topology {
     half_edges: Box<[HalfEdge]>,
     first_of_face: Box<[u16]>,
-    /// Half-edges by the vertex that they leave.
+    /// Half-edges sorted by origin.
     by_origin: Box<[u16]>,
-    /// Where those of each vertex begin; at last, where all end.
+    /// Where those of each vertex begin; a last element for the end of all.
     first_of_vertex: Box<[u16]>,
     edges: Box<[u16]>,
 }
 
 impl Topology {
-    /// Twin of a half-edge whose other side no loop named: only a surface that is not closed has one.
+    /// The twin of a half-edge without one, which only a surface that is not closed has.
     pub(crate) const NO_TWIN: u16 = u16::MAX;
 
     /// Joins face loops, counter-clockwise seen from outside, into half-edges.
@@ -73,8 +73,8 @@ impl Topology {
                 });
             }
         }
-        // Twins: sort half-edges by their undirected edge; the two of an edge come to stand side by side.
-        // By one number each, which is compared at once.
+        // Finds twins by sorting half-edges by their undirected edge, which puts the two of an edge side by side. The
+        // key is packed into one number.
         let undirected = |(i, h): (usize, &HalfEdge)| {
             let (from, to) = (h.origin, half_edges[h.next as usize].origin);
             u64::from(from.min(to)) << 32 | u64::from(from.max(to)) << 16 | i as u64
@@ -150,8 +150,8 @@ impl Topology {
         self.half_edges[self.face_half_edges(face)].iter().map(|h| h.origin as usize)
     }
 
-    /// The half-edges that leave a vertex, ascending. They lead to its neighbours, and every face at the vertex has
-    /// one. None for a vertex that is not there.
+    /// The half-edges that leave a vertex, ascending. They lead to its neighbours, one in every face at the vertex.
+    /// None for a vertex that does not exist.
     ///
     /// ```
     /// use asunder_geometry::Cuboid;
@@ -180,10 +180,11 @@ impl Topology {
     }
 }
 
-/// Half-edges by their origins, ascending in each; where those of each vertex begin, and at last where all end.
+/// Half-edges sorted by origin, then by number; and where those of each vertex begin, with a last element for the end
+/// of all.
 fn by_origin(half_edges: &[HalfEdge]) -> (Box<[u16]>, Box<[u16]>) {
     let vertices = half_edges.iter().map(|h| usize::from(h.origin) + 1).max().unwrap_or(0);
-    // Counted, and then put where the count says.
+    // A counting sort.
     let mut first = vec![0_u16; vertices + 1];
     for half_edge in half_edges {
         first[usize::from(half_edge.origin) + 1] += 1;

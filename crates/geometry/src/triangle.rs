@@ -17,8 +17,9 @@ use std::sync::LazyLock;
 /// Face 0 is the side from which the vertices wind counter-clockwise, face 1 the other.
 ///
 /// # Costs and limits
-/// Two faces and three edges. It has no inside: a body that it cuts is pushed out on the nearer side. Height over the
-/// longest side from 1e-7 of that side; bounding radius from 1e-6 m; vertices within 1e6 m of the shape's origin.
+/// Two faces and three edges. It has no inside: a body that intersects it is pushed out on the nearer side. Height over
+/// the longest side at least 1e-7 of that side; bounding radius from 1e-6 m; vertices within 1e6 m of the shape's
+/// origin.
 ///
 /// ```
 /// use asunder_geometry::{Triangle3, glam::{DVec3, Vec3}};
@@ -38,8 +39,8 @@ static TOPOLOGY: LazyLock<Topology> = LazyLock::new(|| {
     Topology::from_loops(loops.iter().map(|vertices| vertices.as_slice()))
 });
 
-/// Height of a triangle over its longest side, as a share of that side, below which it counts as a segment: its normal
-/// would be rounding.
+/// Height of a triangle over its longest side, as a share of that side, below which it counts as a segment, as its
+/// normal would be mere rounding.
 const LEAST_HEIGHT: f64 = 1e-7;
 
 impl Triangle3 {
@@ -60,7 +61,7 @@ impl Triangle3 {
         Ok(triangle)
     }
 
-    /// One that [`Triangle3::new`] has not refused.
+    /// A triangle that [`Triangle3::new`] would accept.
     #[inline]
     #[doc(hidden)]
     pub fn known(vertices: [Vec3; 3]) -> Self {
@@ -92,7 +93,7 @@ impl Triangle3 {
         [normal, -normal]
     }
 
-    /// The centre that the bounding radius is about: the centroid, rounded to f32.
+    /// The centre of the bounding radius: the centroid, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
         let [a, b, c] = self.vertices;
@@ -106,9 +107,9 @@ impl Triangle3 {
         self.outer_radius
     }
 
-    /// Whether a local point, in metres, lies on the triangle: its edges and corners are of it, so that where two
-    /// triangles meet in an edge, no point between them is on neither. Exact, as long as no product of three
-    /// coordinates underflows, as of a coordinate below 1e-200 m.
+    /// Whether a local point, in metres, lies on the triangle, edges and corners included, so that there is no gap
+    /// between two triangles that share an edge. Exact, as long as no product of three coordinates underflows, as it
+    /// may with a coordinate below 1e-200 m.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         let [a, b, c] = self.vertices.map(|vertex| vertex.as_dvec3());
@@ -116,7 +117,7 @@ impl Triangle3 {
         if !point.is_finite() || orient3d(coord(a), coord(b), coord(c), coord(point)) != 0.0 {
             return false;
         }
-        // In the plane, the sides of the edges are those of their shadows along the axis that the normal is nearest to.
+        // Within the plane, the edges are tested in the projection along the axis nearest to the normal.
         let axis = (b - a).cross(c - a).abs().max_position();
         let shadow = |v: DVec3| Coord { x: v[(axis + 1) % 3], y: v[(axis + 2) % 3] };
         let [a, b, c, point] = [a, b, c, point].map(shadow);

@@ -1,9 +1,9 @@
-//! What can be wrong with the few vertices of a segment, capsule or triangle.
+//! Errors of the vertices of a segment, capsule or triangle.
 
 use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 use glam::DVec3;
 
-/// Why vertices were refused.
+/// Why vertices were rejected.
 ///
 /// ```
 /// use asunder_geometry::{Segment3, VertexError, glam::Vec3};
@@ -77,7 +77,7 @@ pub(crate) fn check_vertices(vertices: &[DVec3]) -> Result<(), VertexError> {
     Ok(())
 }
 
-/// Refuses a bounding radius below the least.
+/// Rejects a bounding radius below the least.
 pub(crate) fn check_size(radius: f32) -> Result<(), VertexError> {
     if radius < MIN_RADIUS { Err(VertexError::TooSmall { radius }) } else { Ok(()) }
 }

@@ -1,4 +1,4 @@
-//! Boxes at rest, in the columns of the sweep that met them first.
+//! Boxes at rest, found in the columns of the last sweep of all.
 
 use super::Gathered;
 use crate::columns::codes::{Codes, gap};
@@ -13,12 +13,12 @@ use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
-/// What may be known of a box.
+/// What is known of a box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
-    /// It is found in the columns.
+    /// It rests, and is found in the columns.
     Rests,
-    /// It rests, and reaches so far along the sweep axis that it is found in an index of its like.
+    /// It rests, but is so long on the sweep axis that it is found in an index of such boxes instead.
     Reaches,
     /// It has moved.
     Moves,
@@ -28,33 +28,32 @@ enum State {
 #[derive(Debug)]
 pub(super) struct Rest<B> {
     states: Vec<State>,
-    /// Bins that any box but those that reach far reaches beyond its first.
+    /// Most bins that a box which [`Rests`](State::Rests) reaches beyond its first.
     longest: u32,
     far: Index<B>,
-    /// The entries of all columns.
+    /// The entries of all columns, in order.
     packs: Vec<Pack>,
     looks: Vec<Look>,
-    /// The cell in which each of them starts, and which it is.
+    /// The first cell of each look, and its place in `looks`.
     starts: Vec<PairId>,
     order: Order,
 }
 
 asunder_geometry::copied!(Rest<B>, for [B: Bounds], { states, longest, far, packs } but { looks, starts, order });
 
-/// Bins that are counted one by one.
+/// Lengths in bins that are counted one by one.
 const BINS: usize = 32;
 
-/// One box of so many may be kept out of the columns.
+/// At most one box of this many is looked up in the index.
 const FAR: usize = 256;
 
-/// Most candidates that movers may have in the columns, for every box: about what a sweep of all takes where columns
-/// are of no use.
+/// Most candidates of movers in the columns, per box: about what a sweep of all takes where columns are of no use.
 const MOST_A_BOX: usize = 1024;
 
-/// What a column counts as that a mover reaches, in candidates: so that there are at most four for every box.
+/// Cost of a column that a mover reaches, in candidates: it limits these to four for every box.
 const A_STRETCH: usize = 256;
 
-/// Most tests of one mover against another, for every column in which one looks: about what a sweep of the movers takes.
+/// Most tests between movers, per column in which one looks: about what a sweep of the movers takes.
 const MOST_A_LOOK: usize = 16;
 
 impl<B: Bounds> Rest<B> {
@@ -78,7 +77,7 @@ impl<B: Bounds> Rest<B> {
             + self.order.bytes()
     }
 
-    /// All boxes rest, as they were just swept.
+    /// Notes that all boxes rest where the sweep has just found them.
     pub(super) fn settle(&mut self, boxes: &[B], grid: &Grid, columns: &Columns) {
         let length = |codes: &Codes| {
             let [first, last] = [grid.sweep, grid.sweep + 3].map(|bound| grid.bin(codes[bound]));
@@ -89,13 +88,13 @@ impl<B: Bounds> Rest<B> {
         for (_, codes) in all() {
             counts[length(codes).min(BINS - 1)] += 1;
         }
-        // As few bins as leave only few boxes out.
+        // The least length that leaves out only a few boxes.
         let (mut longest, mut left_out) = (BINS - 1, counts[BINS - 1]);
         while longest > 0 && left_out + counts[longest - 1] <= boxes.len() / FAR {
             longest -= 1;
             left_out += counts[longest];
         }
-        // What is counted last is anything longer.
+        // The last counter counts all longer ones.
         self.longest = longest.saturating_sub(1) as u32;
         self.states.clear();
         self.states.resize(boxes.len(), State::Rests);
@@ -115,17 +114,18 @@ impl<B: Bounds> Rest<B> {
         self.states[place as usize] != State::Moves
     }
 
-    /// Notes that a box moves, or has come; whether that is news.
+    /// Notes that a box moves or is new; returns whether it was not a mover yet.
     pub(super) fn wakes(&mut self, place: u32) -> bool {
         let place = place as usize;
         if place >= self.states.len() {
-            // One that was not there when all were swept. Whoever comes between is new as well, and has its turn.
+            // It was not there at the last sweep of all. Boxes in between are new as well, and are noted in turn.
             self.states.resize(place + 1, State::Rests);
         }
         core::mem::replace(&mut self.states[place], State::Moves) != State::Moves
     }
 
-    /// Hands over each pair of a mover and another box that overlap, or fewer, as it tells; until there are too many.
+    /// Hands over the overlapping pairs of movers with other boxes: all or some, as the result says. Stops if there are
+    /// too many.
     pub(super) fn meet(
         &mut self,
         (grid, columns): (&Grid, &Columns),
@@ -162,17 +162,17 @@ impl<B: Bounds> Rest<B> {
     }
 }
 
-/// Whom movers have met.
+/// Which pairs of movers were handed over.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Met {
     Everybody,
-    /// Boxes at rest only: among themselves they are so crowded that a sweep of them costs less.
+    /// Those with boxes at rest only: movers are so crowded that a sweep of them costs less than testing them here.
     Resting,
-    /// There is so much to look at that a sweep of all boxes costs less.
+    /// None: there are so many candidates that a sweep of all boxes costs less.
     Nobody,
 }
 
-/// A column that a mover reaches.
+/// The lookup of one mover in one column that it reaches.
 #[derive(Clone, Copy, Debug)]
 struct Look {
     mover: u32,
@@ -180,7 +180,7 @@ struct Look {
     stretch: Stretch,
 }
 
-/// Says where to look; false where that is too much.
+/// Lists the lookups of all movers; false if they would cost too much.
 struct Looking<'a, B> {
     grid: &'a Grid,
     columns: &'a Columns,
@@ -216,8 +216,8 @@ impl<B: Bounds> Kernel for Looking<'_, B> {
     }
 }
 
-/// Looks for boxes at rest, in the order of the columns: what one mover has brought from far memory, the next one finds
-/// at hand. False if it was told to stop.
+/// Looks up boxes at rest, in the order of the columns, so that a mover finds in cache what the one before has loaded.
+/// False if it was told to stop.
 struct Asking<'a, 'g, B> {
     packs: &'a [Pack],
     boxes: &'a [B],
@@ -252,8 +252,8 @@ impl<B: Bounds> Kernel for Asking<'_, '_, B> {
     }
 }
 
-/// Hands over the pairs of movers, which meet in the columns in which both look for others: those that look from one
-/// cell on are side by side. False, and none handed over, where that is so much that a sweep of the movers costs less.
+/// Hands over the pairs of movers, by a sweep over their lookups in order of first cells. False, and none handed over,
+/// if that takes so many tests that a sweep of the movers costs less.
 fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: &mut Gathered) -> bool {
     let (mut tests, most) = (0, MOST_A_LOOK * looks.len());
     let first = found.pairs.len();
@@ -280,7 +280,7 @@ fn each_other<B: Bounds>(looks: &[Look], starts: &[PairId], boxes: &[B], found: 
     true
 }
 
-/// The widest gap between two boxes, as far as codes can tell.
+/// The widest gap between two boxes on any axis, in codes.
 #[inline(always)]
 fn widest_gap(one: &Codes, other: &Codes) -> i16 {
     let on = |axis: usize| gap([one[axis], one[axis + 3]], [other[axis], other[axis + 3]]);

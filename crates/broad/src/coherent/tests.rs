@@ -1,4 +1,4 @@
-//! Lists that are merged, filters that are asked about many pairs at a time, and sweeps that are written over others.
+//! Tests of merged lists, of filters that are asked about many pairs at a time, and of sweeps cloned over others.
 
 use super::{AT_ONCE, CoherentSweep, merge};
 use crate::{Index, LooseSweep, Moved, PairId, PlainSweep, Sweep, TooManyPairs};
@@ -25,14 +25,14 @@ fn a_merge_is_the_sorted_union() {
 const RESTING: u32 = 1000;
 const MOVERS: u32 = 100;
 
-/// Boxes in a row, forty of which a box in their middle overlaps.
+/// Boxes in a row, of which a box in the middle overlaps forty.
 fn row() -> Vec<Aabb3> {
     let unit = |x: f32| Aabb3::new(Vec3::new(x, 0.0, 0.0), Vec3::new(x + 1.0, 1.0, 1.0));
     let resting = (0..RESTING).map(|i| unit(i as f32 * 0.05));
     resting.chain((0..MOVERS).map(|i| unit(1000.0 + 2.0 * i as f32))).collect()
 }
 
-/// A sweep that has kept the boxes at rest, and all movers moved among them.
+/// A sweep that has kept the boxes at rest, and the boxes after all movers have moved among them.
 fn crowd() -> (CoherentSweep<Aabb3>, Vec<Aabb3>, Vec<u32>) {
     let (mut boxes, mut sweep, mut pairs) = (row(), CoherentSweep::new(), Vec::new());
     for _ in 0..3 {
@@ -70,7 +70,7 @@ fn of_many_pairs_each_is_asked_about_once() {
         all_of(&boxes, |_, _| true).into_iter().filter(|pair| pair.b >= RESTING).collect();
     assert!(of_movers.len() > 3 * AT_ONCE, "{} pairs of movers", of_movers.len());
     assert_eq!(asked, of_movers);
-    // Those at rest were kept with another filter.
+    // Pairs at rest were kept with another filter.
     let at_rest = all_of(&boxes[..RESTING as usize], |_, _| true);
     let admitted = of_movers.into_iter().filter(|pair| self::admit(pair.a, pair.b));
     let mut expected: Vec<PairId> = at_rest.into_iter().chain(admitted).collect();
@@ -88,7 +88,7 @@ fn limits_hold_wherever_they_are_passed() {
         pairs
     };
     let kept = expected.iter().filter(|pair| pair.b < RESTING).count();
-    // Within the kept ones, the first load of others, a later one, and the last.
+    // The limit is exceeded within the kept pairs, the first batch of others, a later batch, and the last.
     for limit in [kept - 1, kept, kept + AT_ONCE - 1, kept + 2 * AT_ONCE, expected.len() - 1, expected.len()]
     {
         let (mut sweep, boxes, moved) = crowd();
@@ -104,7 +104,8 @@ fn limits_hold_wherever_they_are_passed() {
     }
 }
 
-/// Movers that go among boxes at rest, to one place, far from all that the columns were laid out for, and some of each.
+/// Movers that go among boxes at rest, all to one place, far from everything the columns were laid out for, or some of
+/// each.
 #[test]
 fn movers_meet_each_other_where_they_look_or_are_swept() {
     let many = MOVERS as f32;
@@ -131,7 +132,7 @@ fn movers_meet_each_other_where_they_look_or_are_swept() {
     }
 }
 
-/// Sweeps of every kind, with a past.
+/// Sweeps of every kind, with a history.
 struct Past {
     moving: MovingBoxes,
     swept: Sweep,
@@ -153,7 +154,7 @@ impl Past {
         past
     }
 
-    /// All four have the pairs of the plain sweep, frame by frame.
+    /// Checks that all four give the pairs of the plain sweep, frame by frame.
     fn go_on(&mut self, frames: usize) {
         for frame in 0..frames {
             self.moving.step();
@@ -171,7 +172,7 @@ impl Past {
         }
     }
 
-    /// The same sweeps in the memory of others.
+    /// These sweeps, cloned into the memory of others.
     fn written_over(&self, mut other: Self) -> Self {
         other.moving = self.moving.clone();
         other.swept.clone_from(&self.swept);
@@ -184,7 +185,7 @@ impl Past {
 
 #[test]
 fn sweeps_that_are_written_over_others_go_on_alike() {
-    // Some that move all their boxes, some a few, some none; of more boxes than the others, and of fewer.
+    // Scenes that move all boxes, a few, or none, with various numbers of boxes.
     let scenes = [BoxScene::Pile, BoxScene::Static5, BoxScene::Static1, BoxScene::Still, BoxScene::Gas];
     for scene in scenes {
         for (other, count) in [(BoxScene::Static5, 900), (BoxScene::Gas, 300), (BoxScene::Still, 600)] {
@@ -205,7 +206,7 @@ fn sweeps_that_are_written_over_others_go_on_alike() {
     }
 }
 
-/// Boxes that tremble stay in their loose ones for many frames, and so do their pairs.
+/// Boxes that tremble stay in their loose boxes for many frames, so their pairs are kept.
 #[test]
 fn loose_boxes_that_are_written_over_others_go_on_alike() {
     let homes = |count: usize| MovingBoxes::new(BoxScene::Pile, count, 3).boxes;

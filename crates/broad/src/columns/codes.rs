@@ -1,10 +1,10 @@
-//! Bounds of boxes as whole numbers of 16 bits.
+//! Bounds of boxes, quantised to 16 bits.
 
-/// The codes of one box: least on the three axes, then greatest.
+/// The codes of one box: minima on the three axes, then maxima.
 pub(crate) type Codes = [i16; 6];
 
-/// The gap between two boxes on an axis, of each its least and greatest code: below zero they overlap there, at zero codes
-/// cannot tell.
+/// The gap between two boxes on an axis, given the least and greatest code of each: below zero they overlap there, at
+/// zero codes leave it undecided.
 #[inline(always)]
 pub(crate) const fn gap(one: [i16; 2], other: [i16; 2]) -> i16 {
     let (before, behind) = (one[0].saturating_sub(other[1]), other[0].saturating_sub(one[1]));
@@ -16,17 +16,17 @@ pub(crate) const fn gap(one: [i16; 2], other: [i16; 2]) -> i16 {
 #[repr(C, align(16))]
 pub(crate) struct Entry {
     pub(crate) codes: Codes,
-    /// Place of the box in what is swept.
+    /// Place of the box in the list that is swept.
     pub(crate) place: u32,
 }
 
 /// Adding this to a number below 2^21 leaves its nearest whole number in the low bits of the mantissa.
 const ROUNDS_TO_WHOLE: f32 = 12_582_912.0;
 
-/// The greatest code; the least is its opposite.
+/// The greatest code; the least is its negative.
 const LAST: f32 = 32_767.0;
 
-/// Coordinates to codes on three axes, monotone: what is not less has no lesser code.
+/// Maps coordinates to codes on three axes, monotonically: a coordinate that is not less has no lesser code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Quantiser {
     middle: [f32; 8],
@@ -34,10 +34,10 @@ pub(crate) struct Quantiser {
 }
 
 impl Quantiser {
-    /// Spreads the codes over the given intervals; what lies outside shares the codes at the ends.
+    /// Spreads the codes over the given intervals; anything outside is clamped to the codes at the ends.
     ///
-    /// An interval may be empty, and as wide as numbers go. The middle stays finite, and the scale finite and above
-    /// zero, so that no infinite coordinate becomes a NaN.
+    /// An interval may have no width, or as much as f32 allows. The middle stays finite, and the scale finite and
+    /// positive, so that no infinite coordinate becomes NaN.
     pub(crate) fn over(intervals: [(f32, f32); 3]) -> Self {
         let [mut middle, mut scale] = [[0.0; 8]; 2];
         for (axis, (low, high)) in intervals.into_iter().enumerate() {
@@ -51,18 +51,19 @@ impl Quantiser {
         Self { middle, scale }
     }
 
-    /// Codes a metre on an axis.
+    /// Codes per metre on an axis.
     pub(crate) fn per_metre(&self, axis: usize) -> f64 {
         f64::from(self.scale[axis])
     }
 
-    /// Where the codes of a rank begin on an axis, in metres, and of the ranks behind the last, where they end.
+    /// The least coordinate on an axis whose code has this rank, in metres; for a rank behind the last, where the codes
+    /// end.
     pub(crate) fn least(&self, axis: usize, rank: u32) -> f32 {
         let code = (f64::from(rank) - 32_768.5).clamp(-f64::from(LAST), f64::from(LAST));
         (f64::from(self.middle[axis]) + code / f64::from(self.scale[axis])) as f32
     }
 
-    /// The codes of a box without NaN; for any other, some.
+    /// The codes of a box without NaN; with NaN, arbitrary codes.
     #[inline(always)]
     pub(crate) fn codes(&self, low: [f32; 3], high: [f32; 3]) -> Codes {
         let sides = [low[0], low[1], low[2], high[0], high[1], high[2], 0.0, 0.0];
@@ -77,13 +78,13 @@ impl Quantiser {
     }
 }
 
-/// Code to number above zero, in order.
+/// Maps codes to unsigned numbers in the same order.
 #[inline(always)]
 pub(crate) const fn rank(code: i16) -> u32 {
     (code as u16 ^ 0x8000) as u32
 }
 
-/// Whether codes leave it open that two boxes overlap.
+/// Whether two boxes may overlap, as far as codes can tell.
 pub(crate) fn may_overlap(one: &Codes, other: &Codes) -> bool {
     (0..3).all(|axis| one[axis] <= other[axis + 3] && other[axis] <= one[axis + 3])
 }

@@ -1,25 +1,25 @@
-//! Where columns go: a guess from a few boxes. Only speed depends on it.
+//! The layout of columns, estimated from a sample of boxes. Only speed depends on it.
 
 use super::codes::{Codes, Quantiser, rank};
 use asunder_geometry::Bounds;
 
-/// Columns over two axes, and the axis that is swept in each.
+/// Columns over two axes, and the third axis, along which each is swept.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     pub(crate) quantiser: Quantiser,
-    /// The axis along which boxes are smallest, measured by how far they spread.
+    /// The sweep axis: the one along which boxes are smallest relative to their spread.
     pub(crate) sweep: usize,
-    /// Columns over the next axis and over the one after it.
+    /// Number of columns on the next axis and on the one after it.
     pub(crate) columns: [u32; 2],
-    /// The sweep axis is cut into 2 to the power of this many bins.
+    /// The sweep axis is cut into 2^`bin_bits` bins.
     pub(crate) bin_bits: u32,
-    /// Bins or columns on each axis, for least and greatest codes.
+    /// Bins or columns on the axis of each of the six codes.
     across: [u16; 6],
-    /// Candidates that the guess expects for a box, in all its rows.
+    /// Expected candidates of a box in all its columns.
     pub(crate) expected: f64,
 }
 
-/// The bin in which a box begins, and the columns that it reaches: first and last on both axes that they lie over.
+/// The bin in which a box begins, and the first and last column that it reaches on both column axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
     pub(crate) bin: u32,
@@ -27,26 +27,26 @@ pub(crate) struct Reach {
     pub(crate) z: (u32, u32),
 }
 
-/// What columns are laid over; all that lies outside goes into the outermost.
+/// What columns are laid over; anything outside goes into the outermost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Over {
     /// All boxes but a few.
     All,
-    /// Where the middle half of the boxes is, and as much again: the same, if they are spread evenly; else not much
-    /// further than most of them, however far away a quarter is.
+    /// The range of the middle half of the boxes, widened to about twice that: the same as `All` if they are spread
+    /// evenly; otherwise not much more than where most of them are, however far away a quarter is.
     Bulk,
 }
 
-/// Boxes that share a bin of the sweep axis, roughly.
+/// Boxes per bin of the sweep axis, roughly.
 const BOXES_A_BIN: f64 = 4.0;
 
-/// Most entries that boxes may have on average.
+/// Most entries per box on average.
 const MOST_ENTRIES: usize = 4;
 
-/// Columns are at least so many boxes wide,
+/// Columns are at least this many boxes wide,
 const NARROWEST: f64 = 0.75;
 
-/// and at most so many times the narrowest.
+/// and at most this many times the narrowest.
 const WIDEST: f64 = 400.0;
 
 /// Most columns on one axis.
@@ -58,14 +58,14 @@ const PER_SIXTEEN: f64 = 3.0;
 const PER_COLUMN: f64 = 20.0;
 
 impl Grid {
-    /// Lays columns out for `count` boxes, of which `pick` gives the one at a place.
+    /// Lays columns out for `count` boxes, which `pick` gives by their places.
     pub(crate) fn for_boxes<B: Bounds>(count: usize, over: Over, pick: impl Fn(usize) -> B) -> Self {
         let spread = Spread::of(count, over, pick);
         let sweep = (0..3).min_by(|&a, &b| spread.fill(a).total_cmp(&spread.fill(b))).unwrap_or(0);
         let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
         let mut best = (f64::INFINITY, [1, 1], 0.0);
-        // Columns so and so many boxes wide; not so narrow that there are more of them than boxes, however far
-        // these lie apart.
+        // Tries widths of columns, in boxes; none so narrow that there would be more columns than boxes, however sparse
+        // these are.
         let narrowest =
             NARROWEST.max((spread.boxes_across(y) * spread.boxes_across(z) / count.max(1) as f64).sqrt());
         let mut width = narrowest;
@@ -94,10 +94,10 @@ impl Grid {
         grid.with_columns(best.1)
     }
 
-    /// Where a box is.
+    /// The cells of a box.
     #[inline(always)]
     pub(crate) fn reach(&self, codes: &Codes) -> Reach {
-        // By hand: without link-time optimisation `zip` and `map` are calls, and took half the time of a sweep.
+        // Written out: without link-time optimisation `zip` and `map` are calls, which took half the time of a sweep.
         let step = |side: usize| ((rank(codes[side]) * u32::from(self.across[side])) >> 16) as u16;
         let steps = [step(0), step(1), step(2), step(3), step(4), step(5)];
         let at = |side: usize| u32::from(steps[side]);
@@ -111,7 +111,7 @@ impl Grid {
         ((y * self.columns[1] + z) << self.bin_bits) + bin
     }
 
-    /// From a bin to the same in the next column, on both axes.
+    /// Steps from a bin to the same bin of the next column, on both axes.
     pub(crate) const fn steps(&self) -> (u32, u32) {
         (self.columns[1] << self.bin_bits, 1 << self.bin_bits)
     }
@@ -127,7 +127,7 @@ impl Grid {
         (self.columns[0] * self.columns[1]) as usize
     }
 
-    /// Whether cells are about as large as another grid's, on all axes.
+    /// Whether cells are about as large as those of another grid, on all axes.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         let cells = |grid: &Self, axis: usize| {
             let across = if axis == grid.sweep { 1.0 } else { f64::from(grid.across[axis]) };
@@ -146,7 +146,7 @@ impl Grid {
         Self { columns, across, ..self }
     }
 
-    /// Most entries that so many boxes are worth, whatever the sample said: where there are more, columns are too fine.
+    /// Most entries to allow for so many boxes, whatever the sample suggested: with more, columns are too fine.
     pub(crate) const fn most_entries(&self, boxes: usize) -> usize {
         if self.count() > 1 { MOST_ENTRIES * boxes } else { usize::MAX }
     }
@@ -159,32 +159,32 @@ impl Grid {
 
 /// How a sample of boxes is spread.
 struct Spread {
-    /// Where boxes are, on each axis: without the outermost, widened a little.
+    /// The range of boxes on each axis: without the outermost, then widened.
     range: [(f32, f32); 3],
     /// Mean size on each axis.
     size: [f64; 3],
-    /// How many times likelier it is that two boxes share a place than if all were spread evenly.
+    /// How many times likelier two boxes are to share a place than if all were spread evenly.
     crowding: f64,
 }
 
 /// Boxes in a sample, at most: it lies on the stack, so that a steady scene allocates nothing.
 const SAMPLE: usize = 512;
 
-/// 2^32 over the golden ratio: its multiples are spread evenly, and in step with nothing.
+/// 2^32 over the golden ratio: its multiples are spread evenly, and in step with no pattern of the boxes.
 const GOLDEN: u32 = 0x9e37_79b9;
 
-/// The size that a box counts with is at most so many times the middle one: a giant must not coarsen the grid.
+/// Sizes are capped at this many times the median: a giant must not coarsen the grid.
 const GIANT: f32 = 32.0;
 
 /// Least and greatest corner.
 type Corners = ([f32; 3], [f32; 3]);
 
 impl Spread {
-    // Not inlined: columns within columns would each keep its stack.
+    // Not inlined: every level of nested columns would keep its stack frame.
     #[inline(never)]
     fn of<B: Bounds>(count: usize, over: Over, pick: impl Fn(usize) -> B) -> Self {
         let wanted = (count / 16).clamp(32, SAMPLE).min(count) as u32;
-        // Not at a stride: who makes boxes in turns, one here and one there, would be seen in one place only.
+        // Not at a stride: if boxes were created alternately here and there, only one of the places would be sampled.
         let place = |number: u32| ((u64::from(number.wrapping_mul(GOLDEN)) * count as u64) >> 32) as usize;
         let is_finite =
             |b: &Corners| (0..3).all(|axis| b.0[axis] <= b.1[axis] && (b.1[axis] - b.0[axis]).is_finite());
@@ -230,20 +230,20 @@ impl Spread {
         f64::from(self.range[axis].1) - f64::from(self.range[axis].0)
     }
 
-    /// Boxes that fill an axis, side by side; boxes without size count as if there were room for very many.
+    /// How many boxes fit on an axis side by side; very many if they have no size.
     fn boxes_across(&self, axis: usize) -> f64 {
         let across = self.extent(axis) / self.size[axis];
-        // Not a number where there is no extent and no size, and below zero where all is beyond the range.
+        // NaN where there is neither extent nor size, and negative where all is beyond the range.
         if across >= 1.0 { across.min(1e15) } else { 1.0 }
     }
 
-    /// The part of an axis that one box fills.
+    /// The fraction of an axis that one box fills.
     fn fill(&self, axis: usize) -> f64 {
         let fill = self.size[axis] / self.extent(axis);
         if fill < 1.0 { fill } else { 1.0 }
     }
 
-    /// What a sweep with so many columns is expected to cost, and candidates a box.
+    /// Expected cost of a sweep with so many columns, and candidates per box.
     fn cost(&self, count: f64, sweep: usize, columns: [f64; 2]) -> (f64, f64) {
         let (y, z) = ((sweep + 1) % 3, (sweep + 2) % 3);
         let entries = count * (1.0 + self.fill(y) * columns[0]) * (1.0 + self.fill(z) * columns[1]);
@@ -256,7 +256,7 @@ impl Spread {
     }
 }
 
-/// Counts the sample in 8 x 8 x 8 cells.
+/// Estimates `Spread::crowding` from a histogram of the sample in 8 x 8 x 8 cells.
 fn crowding(sample: &[Corners], range: &[(f32, f32); 3]) -> f64 {
     let cells = Quantiser::over(*range);
     let mut counts = [0_u16; 512];

@@ -1,4 +1,4 @@
-//! Boxes sorted into columns, and in a column along the sweep axis, by counting.
+//! A counting sort of boxes into columns and, within a column, into bins along the sweep axis.
 
 pub(crate) mod codes;
 pub(crate) mod grid;
@@ -16,19 +16,19 @@ use core::ops::Range;
 use grid::{Grid, Reach};
 use scatter::{Groups, MANY};
 
-/// Entries of boxes, column by column, in each by the bin of the minimum on the sweep axis. A box has an entry in
-/// every column that it reaches.
+/// The entries of boxes, column by column, and in each by the bin of their minimum on the sweep axis. A box has an
+/// entry in every column that it reaches.
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
-    /// Every box once, in the order in which it came; in place of its place, where its entry in the first column it
-    /// reaches goes.
+    /// Every box once, in the order of the input. `place` holds the cell of its first entry here.
     records: Vec<Entry>,
-    /// Those that reach a second column on the first axis, on the second, and all others that reach more than one.
+    /// Boxes that reach exactly one more column on the first axis, on the second, and all others in more than one
+    /// column.
     straddlers: [Vec<u32>; 3],
-    /// Where each bin of each column ends in the entries.
+    /// Where each bin of each column ends in `entries`.
     ends: Vec<u32>,
     entries: Vec<Entry>,
-    /// Entries that were counted, boxes that are none among them.
+    /// Entries counted, those of empty boxes included.
     counted: usize,
     groups: Groups,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Columns {
 asunder_geometry::copied!(Columns, { records, straddlers, ends, entries, counted } but { groups });
 
 impl Columns {
-    /// The entries of a column, and where its bins end, counted from `start`.
+    /// The entries of a column, and where its bins end.
     #[inline(always)]
     pub(crate) fn column(&self, grid: &Grid, index: usize) -> ColumnEntries<'_> {
         let bins = 1 << grid.bin_bits;
@@ -46,8 +46,8 @@ impl Columns {
         ColumnEntries { start, ends, entries: &self.entries[start as usize..end as usize] }
     }
 
-    /// Which entries a box may overlap: stretches of them, one a column that it reaches, by bins. `longest` is the
-    /// number of bins that any box but those left out reaches beyond its first.
+    /// Which entries a box may overlap, going by bins: one stretch for each column that it reaches. `longest` is how
+    /// many bins the entries reach beyond their first at most, not counting boxes that are kept elsewhere.
     #[inline(always)]
     pub(crate) fn stretches(&self, grid: &Grid, codes: &Codes, longest: u32, mut visit: impl FnMut(Stretch)) {
         let Reach { bin, y, z } = grid.reach(codes);
@@ -76,11 +76,11 @@ impl Columns {
 
     /// Entries in all columns.
     pub(crate) fn len(&self) -> usize {
-        // Boxes that are none stand behind the last column.
+        // Empty boxes are in an extra bin behind the last column.
         self.ends.len().checked_sub(2).map_or(0, |last| self.ends[last] as usize)
     }
 
-    /// Candidates in all rows of all columns.
+    /// Candidates in all columns.
     pub(crate) fn candidates(&self, grid: &Grid) -> usize {
         (0..grid.count()).map(|index| self.column(grid, index).candidates(grid)).sum()
     }
@@ -92,16 +92,16 @@ impl Columns {
             + self.groups.bytes()
     }
 
-    /// The first half of sorting: makes the record of every box at `places`, and counts the entries in every bin, or of
-    /// many boxes in every group of bins.
+    /// The first half of sorting: makes the record of every box at `places`, and counts the entries of every bin (of
+    /// every group of bins, for many boxes).
     ///
-    /// Nothing here depends on where a box is but three lists and one addition: a branch on whether a box straddles
-    /// would be guessed wrong for every fifth box (1.5 ns per box, Zen 4, 2026-11-21).
+    /// There are no branches on where a box lies: whether it straddles would be mispredicted for every fifth box (1.5
+    /// ns per box, Zen 4, 2026-11-21).
     ///
-    /// Boxes are read so many ahead of the work on them: see [`SCATTERED`].
+    /// Boxes are read in batches of `AHEAD` before the work on them: see [`SCATTERED`].
     ///
-    /// Once there are more than `most` entries, those that are left are not counted: giants that no sample has seen
-    /// would have one in every column.
+    /// Once there are more than `most` entries, counting stops: giants that the sample missed would have one in every
+    /// column.
     #[inline(always)]
     pub(crate) fn count<B: Bounds, const AHEAD: usize>(
         &mut self,
@@ -112,7 +112,7 @@ impl Columns {
         self.count_from::<B, AHEAD>(MANY, grid, (places, most), pick);
     }
 
-    /// The same, where so many boxes are many.
+    /// The same, with the number of boxes from which on bins are grouped.
     #[inline(always)]
     fn count_from<B: Bounds, const AHEAD: usize>(
         &mut self,
@@ -124,7 +124,7 @@ impl Columns {
         let cells = grid.count() << grid.bin_bits;
         let no_box = cells as u32;
         self.ends.clear();
-        // One more, for boxes that are none.
+        // One more, for empty boxes.
         self.ends.resize(cells + 1, 0);
         self.groups.begin(self.ends.len(), places.len(), many);
         self.records.resize(places.len(), Entry::default());
@@ -148,7 +148,7 @@ impl Columns {
                 let cell = if is_box { grid.cell(reach.y.0, reach.z.0, reach.bin) } else { no_box };
                 *record = Entry { codes, place: cell };
                 counts[(cell >> shift) as usize] += 1;
-                // An inverted box may end before it begins; it is no box, and does not count.
+                // Wraps for an inverted box, which ends before it begins: that is empty, and not counted.
                 let (more_y, more_z) = (reach.y.1.wrapping_sub(reach.y.0), reach.z.1.wrapping_sub(reach.z.0));
                 let is_over_y = is_box & (more_y == 1) & (more_z == 0);
                 let is_over_z = is_box & (more_z == 1) & (more_y == 0);
@@ -167,7 +167,7 @@ impl Columns {
         self.count_others(grid, most);
     }
 
-    /// Counts the entries of boxes in all columns that they reach but the first.
+    /// Counts the entries of boxes in all columns that they reach except the first.
     #[inline(always)]
     fn count_others(&mut self, grid: &Grid, most: usize) {
         let Self { records, straddlers: [over_y, over_z, over_more], ends, groups, .. } = self;
@@ -185,7 +185,7 @@ impl Columns {
             }
             let codes = records[place as usize].codes;
             total += for_others(&codes, grid, |cell, _| {
-                // What goes into its bin by itself is counted there, and room is kept for it in its group.
+                // These bypass the groups: they are counted in their bin, and room is reserved in their group.
                 ends[cell as usize] += 1;
                 groups.keep_room(cell);
             });
@@ -195,16 +195,16 @@ impl Columns {
     }
 }
 
-/// How many boxes are read ahead where they lie one behind the other: memory is ahead of them anyway.
+/// How many boxes to read at a time where they are contiguous, and prefetched by the hardware anyway.
 pub(crate) const IN_ORDER: usize = 1;
 
-/// Where they lie all over memory: a loop that does nothing else waits for many at a time. `islands` of a million boxes,
-/// whose columns are swept in columns, take 0.62 of the time; boxes in order would take 1.02 (Intel Xeon, family 6 model
-/// 85, one thread, 2026-11-28).
+/// The same where they are scattered over memory: a loop that does nothing but read has many cache misses in flight. A
+/// million boxes of `islands`, whose columns are swept in columns of their own, take 0.62 of the time; contiguous boxes
+/// would take 1.02 (Intel Xeon, family 6 model 85, one thread, 2026-11-28).
 pub(crate) const SCATTERED: usize = 32;
 
-/// Sorts `count` boxes, of which `pick` gives the one at a place. Returns the grid that they are sorted by: coarser
-/// than the one asked for, should that give every box too many entries.
+/// Sorts `count` boxes, which `pick` gives by their places. Returns the grid that was used: coarser than the given one
+/// if that would give boxes too many entries.
 pub(crate) struct Fill<'a, P, const AHEAD: usize> {
     pub(crate) columns: &'a mut Columns,
     pub(crate) grid: Grid,
@@ -231,41 +231,42 @@ impl<B: Bounds, P: Fn(usize) -> B, const AHEAD: usize> Kernel for Fill<'_, P, AH
     }
 }
 
-/// In the place of an entry: the box begins in this column, on the first axis that columns lie over, and on the second.
+/// Flags in the place of an entry: the box begins in this column on the first column axis, and on the second.
 const HOME_Y: u32 = 1 << 30;
 const HOME_Z: u32 = 1 << 31;
 
-/// The place of the box of an entry, if it begins in this column: every box has one such entry.
+/// The place of the box of an entry, if the box begins in this column on both axes: true of one entry of every box.
 #[inline(always)]
 pub(crate) const fn begins(place: u32) -> Option<u32> {
     if place >> 30 == 3 { Some(place & PLACE) } else { None }
 }
 
-/// What to write into a place.
+/// The flags of a place.
 #[inline(always)]
 const fn home(on_y: bool, on_z: bool) -> u32 {
     (if on_y { HOME_Y } else { 0 }) | (if on_z { HOME_Z } else { 0 })
 }
 
-/// Some entries of one column, for a box that may overlap them.
+/// Some entries of one column that a box may overlap.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stretch {
     pub(crate) start: u32,
     pub(crate) end: u32,
-    /// The cell that it starts with; and with which the stretch starts of the last one that this box may overlap.
+    /// The cell with which it starts, and the last cell with which the stretch of a box that begins within this one can
+    /// start.
     pub(crate) cells: [u32; 2],
-    /// Where the box begins, as a place has it.
+    /// Whether the box begins in this column, as flags of a place.
     pub(crate) home: u32,
 }
 
-/// The rest of it: the place itself.
+/// The bits of a place that hold the place itself, without flags.
 pub(crate) const PLACE: u32 = HOME_Y - 1;
 
-/// Most boxes of one sweep: their entries, at most four each, can still be counted.
+/// Most boxes of one sweep, so that their entries, at most four each on average, can be counted in 32 bits.
 pub(crate) const MOST_BOXES: usize = 1 << 29;
 
-/// The places of two boxes that overlap in a column, and whether the column owns the pair: it has the greater of
-/// their minima on both axes.
+/// The places of two boxes that overlap in a column, and whether the column owns the pair: it does if it contains the
+/// greater of their minima on both axes, so that on each axis one of them begins here.
 #[inline(always)]
 pub(crate) const fn owned(one: u32, other: u32) -> (u32, u32, bool) {
     (one & PLACE, other & PLACE, (one | other) >> 30 == 3)
@@ -280,7 +281,7 @@ pub(crate) struct ColumnEntries<'a> {
 }
 
 impl ColumnEntries<'_> {
-    /// Where the row of a box ends: behind the last bin that it reaches.
+    /// Where the candidates of a box end: behind the last bin that it reaches.
     #[inline(always)]
     pub(crate) fn row_end(&self, codes: &Codes, grid: &Grid) -> usize {
         (self.ends[grid.bin(codes[grid.sweep + 3])] - self.start) as usize
@@ -296,14 +297,14 @@ impl ColumnEntries<'_> {
         fullest as usize
     }
 
-    /// Candidates in all rows.
+    /// Candidates of all boxes in it.
     pub(crate) fn candidates(&self, grid: &Grid) -> usize {
         let rows = (1..).zip(self.entries);
         rows.map(|(next, entry)| self.row_end(&entry.codes, grid).saturating_sub(next)).sum()
     }
 }
 
-/// Hands over the cells of a box in all columns that it reaches but the first; returns how many.
+/// Hands over the cells of a box in all columns that it reaches except the first; returns how many.
 #[inline(always)]
 fn for_others(codes: &Codes, grid: &Grid, mut visit: impl FnMut(u32, u32)) -> usize {
     let Reach { bin, y, z } = grid.reach(codes);

@@ -1,16 +1,16 @@
-//! Columns of boxes that were sorted in parts, put together.
+//! Merges columns whose boxes were sorted in parts.
 
 use super::codes::Entry;
 use super::grid::Grid;
 use super::{ColumnEntries, Columns};
 use core::ops::Range;
 
-/// Entries that are worth a thread of their own.
+/// Fewest entries that are worth another thread.
 #[cfg(feature = "parallel")]
 const WORTH_A_THREAD: usize = 16_384;
 
 impl Columns {
-    /// Puts the parts of one column together, in order of the bins.
+    /// Merges the parts of one column, bin by bin.
     pub(crate) fn gather(&mut self, parts: &[Self], grid: &Grid, index: usize) -> ColumnEntries<'_> {
         let bins = 1 << grid.bin_bits;
         let bins = index * bins..(index + 1) * bins;
@@ -23,21 +23,21 @@ impl Columns {
         ColumnEntries { start: 0, ends: &self.ends, entries: &self.entries[..count] }
     }
 
-    /// Puts the parts of all columns together, on the threads of the current pool. There are no records then.
+    /// Merges the parts of all columns, on the threads of the current pool. Leaves no records.
     #[cfg(feature = "parallel")]
     pub(crate) fn gather_all(&mut self, parts: &[Self], grid: &Grid) {
         let cells = grid.count() << grid.bin_bits;
         let count = count(parts, &(0..cells));
         self.records.clear();
         self.entries.resize(count, Entry::default());
-        // One more, for boxes that are none.
+        // One more, for empty boxes.
         self.ends.resize(cells + 1, 0);
         self.ends[cells] = count as u32;
         put_together_in_halves(parts, 0..cells, (&mut self.entries, &mut self.ends[..cells]), 0);
     }
 }
 
-/// Entries in some bins of all parts.
+/// Counts the entries in some bins of all parts.
 fn count(parts: &[Columns], bins: &Range<usize>) -> usize {
     parts.iter().map(|part| (part.ends[bins.end - 1] - start(part, bins.start)) as usize).sum()
 }
@@ -47,7 +47,7 @@ fn start(part: &Columns, bin: usize) -> u32 {
     if bin == 0 { 0 } else { part.ends[bin - 1] }
 }
 
-/// Writes the entries of some bins, and where each of these ends, counted from `first`.
+/// Writes the entries of some bins, and where each bin ends; the first entry has place `first`.
 #[inline(always)]
 fn put_together(
     parts: &[Columns],
@@ -58,7 +58,7 @@ fn put_together(
     let mut next = 0;
     for (bin, end) in bins.zip(ends) {
         for part in parts {
-            // A few at a time: a loop is faster than a call that copies.
+            // Mostly only a few entries: a loop is faster than a call of memcpy.
             for entry in &part.entries[start(part, bin) as usize..part.ends[bin] as usize] {
                 entries[next] = *entry;
                 next += 1;

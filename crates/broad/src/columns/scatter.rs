@@ -1,49 +1,49 @@
-//! The second half of sorting boxes into columns: every entry into its bin.
+//! The second half of sorting boxes into columns: puts every entry into its bin.
 //!
 //! ```text
-//! few boxes:   each entry into its bin, which were counted
-//! many:        the bins in groups of as many, each of which fits a near cache; the groups were counted:
-//!              each entry into its group, in the order in which it comes
-//!              of each group, entries are counted into bins, and each goes into its bin
-//! in the end:  what reaches more than two columns, each entry into its bin
+//! few boxes:   bins have been counted; each entry goes into its bin
+//! many boxes:  groups of equally many bins have been counted, each small enough for a near cache:
+//!              each entry goes into its group, in the order of the input
+//!              in each group, count the entries of every bin, then put each into its bin
+//! at the end:  boxes that reach more than two columns, each entry into its bin
 //! ```
-//! Boxes come in any order, and where many are spread over much memory, each entry waits for a line and a page of its
-//! own, and so does the counter of its bin. Groups are few enough for one line of each to stay near. Both ways keep the
-//! order in which entries come, and so give the same.
+//! Boxes come in any order. Where many are spread over much memory, each entry costs a cache and a TLB miss, and so
+//! does the counter of its bin. Groups are few enough for one cache line of each to stay near. Both ways are stable,
+//! and so give the same result.
 //!
-//! A whole sweep of a million boxes, pairs sorted, takes 0.69 of the time for `gas`, 0.7 for `sizes` and `tower`, 0.9
-//! for `pile` (Intel Xeon, family 6 model 85, 2 virtual cores, one thread, 2026-11-28, medians in turns). That was with
-//! bins counted one by one; counted group by group, 0.87 of that for `gas`, 0.75 for `tower`, 1.0 for the others, and
-//! on two threads 0.8 for `gas` and `tower`, 0.7 for `sizes`. Of 100,000 boxes nothing is gained, and of 50,000 some
-//! percent are lost. Groups of half or twice as many entries: the same.
+//! With groups, a whole sweep of a million boxes, pairs sorted, takes 0.69 of the time for `gas`, 0.7 for `sizes` and
+//! `tower`, 0.9 for `pile` (Intel Xeon, family 6 model 85, 2 virtual cores, one thread, 2026-11-28, medians in turns).
+//! That still counted all bins at once; counting group by group takes 0.87 of that for `gas`, 0.75 for `tower`, 1.0 for
+//! the others, and on two threads 0.8 for `gas` and `tower`, 0.7 for `sizes`. For 100,000 boxes nothing is gained, and
+//! for 50,000 some percent are lost. Groups of half or twice as many entries: the same.
 
 use super::codes::Entry;
 use super::grid::{Grid, Reach};
 use super::{Columns, HOME_Y, HOME_Z, for_others};
 
-/// Boxes to a group, about: 128 KiB of entries, and what they have in other columns.
+/// Boxes per group, about: 128 KiB of entries, and those that these boxes have in other columns.
 const A_GROUP: usize = 1 << 13;
 
 /// Most groups.
 const MOST_GROUPS: usize = 256;
 
-/// Fewest boxes that are worth groups.
+/// Fewest boxes for which groups pay.
 pub(super) const MANY: usize = 1 << 17;
 
-/// Groups of bins, each of a power of two.
+/// Groups of bins, a power of two in each.
 #[derive(Debug, Default)]
 pub(super) struct Groups {
-    /// Bins to a group, as a power of two.
+    /// Log2 of the bins per group.
     shift: u32,
-    /// Entries in each group; none where bins are counted themselves.
+    /// Entries in each group; empty where the bins themselves are counted.
     counts: Vec<u32>,
-    /// Entries of one group on their way into their bins, and these.
+    /// Copies of the entries of one group on their way into their bins, and those bins.
     entries: Vec<Entry>,
     cells: Vec<u32>,
 }
 
 impl Groups {
-    /// Of so many bins, the one for boxes that are none among them, where there are boxes enough.
+    /// Lays out groups of so many bins, the one of empty boxes included, if there are `many` boxes or more.
     #[inline(always)]
     pub(super) fn begin(&mut self, bins: usize, boxes: usize, many: usize) {
         self.counts.clear();
@@ -54,13 +54,13 @@ impl Groups {
         }
     }
 
-    /// Where entries are counted, and what of a bin's number tells where: groups, or else bins.
+    /// The counters of groups or else of bins, and by how many bits to shift the number of a bin to index them.
     #[inline(always)]
     pub(super) fn counts<'c>(&'c mut self, bins: &'c mut [u32]) -> (&'c mut [u32], u32) {
         if self.counts.is_empty() { (bins, 0) } else { (&mut self.counts, self.shift) }
     }
 
-    /// Counts an entry that comes last.
+    /// Counts an entry that is put into its bin at the end.
     #[inline(always)]
     pub(super) fn keep_room(&mut self, cell: u32) {
         if let Some(count) = self.counts.get_mut((cell >> self.shift) as usize) {
@@ -75,7 +75,7 @@ impl Groups {
 }
 
 impl Columns {
-    /// Puts every entry into its bin. The places are counted from `first`.
+    /// Puts every entry into its bin. The first box has place `first`.
     #[inline(always)]
     pub(crate) fn scatter(&mut self, grid: &Grid, first: u32) {
         if self.entries.len() < self.counted {
@@ -95,7 +95,7 @@ impl Columns {
         }
     }
 
-    /// All but those of boxes that reach more than two columns.
+    /// The entries of boxes in one or two columns, straight into their bins.
     #[inline(always)]
     fn scatter_each(&mut self, grid: &Grid, first: u32) {
         let Self { records, straddlers, ends, entries, .. } = self;
@@ -115,7 +115,7 @@ impl Columns {
         starts[..next.len()].copy_from_slice(next);
         let no_box = ends.len() as u32 - 1;
         for_entries(records, straddlers, (grid, first), |cell, entry| {
-            // No codes tell that a box is none. They stand behind all others, where nobody looks.
+            // Codes cannot represent an empty box. These are put behind all others, where they are never read.
             if cell != no_box {
                 put(entries, &mut next[(cell >> *shift) as usize], entry);
             }
@@ -141,7 +141,7 @@ impl Columns {
     }
 }
 
-/// From how many there are of each to where each begins, the first at `start`.
+/// Prefix sum: turns counts into where each begins, the first at `start`.
 #[inline(always)]
 fn add_up(counts: &mut [u32], start: u32) {
     let mut sum = start;
@@ -150,8 +150,8 @@ fn add_up(counts: &mut [u32], start: u32) {
     }
 }
 
-/// Hands over the entries of all boxes but those that reach more than two columns, each with its cell: first those where
-/// they begin.
+/// Hands over the entries of boxes in one or two columns, each with its cell: first those of the columns in which they
+/// begin.
 #[inline(always)]
 fn for_entries(
     records: &[Entry],
@@ -171,7 +171,7 @@ fn for_entries(
     }
 }
 
-/// The bin of an entry that is in the first column of its box, or in the next on one axis.
+/// The bin of an entry that is in the first column of its box, or in the next one on one axis.
 #[inline(always)]
 fn cell_of(entry: &Entry, grid: &Grid) -> u32 {
     let Reach { bin, y, z } = grid.reach(&entry.codes);
@@ -179,7 +179,7 @@ fn cell_of(entry: &Entry, grid: &Grid) -> u32 {
     grid.cell(y.0 + next(HOME_Y), z.0 + next(HOME_Z), bin)
 }
 
-/// Puts an entry where others end.
+/// Appends an entry to a bin.
 #[inline(always)]
 fn put(entries: &mut [Entry], end: &mut u32, entry: Entry) {
     entries[*end as usize] = entry;
@@ -192,7 +192,7 @@ mod tests {
     use crate::columns::{Columns, IN_ORDER};
     use asunder_geometry::{Aabb3, glam::Vec3};
 
-    /// Boxes on a lattice, out of order, some of them large or none; so many of these.
+    /// Boxes on a lattice, out of order, some of them large or empty; and how many are empty.
     fn boxes() -> (Vec<Aabb3>, usize) {
         let none = |i: u32| i % 1000 == 17;
         let boxes = (0..30_000_u32).map(|i| {

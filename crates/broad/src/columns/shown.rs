@@ -1,4 +1,4 @@
-//! Columns as boxes, to be looked at.
+//! Columns as boxes, for debug views.
 
 use super::Columns;
 use super::grid::Grid;
@@ -6,23 +6,23 @@ use crate::sweep::level::{crowd, overfull};
 use asunder_geometry::Aabb3;
 use asunder_geometry::glam::Vec3;
 
-/// A column that a sweep has sorted boxes into: what debug views draw.
+/// A column that a sweep has sorted boxes into, for debug views to draw.
 ///
-/// Columns say how fast a sweep was, and never which pairs it found.
+/// Columns affect how fast a sweep is, never which pairs it finds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Column {
-    /// Where it lies, in metres; without height in the plane. The outermost columns take all that lies outside as well,
-    /// and are shown as far as nearly all boxes go.
+    /// Where it lies, in metres; without height in the plane. The outermost columns also take everything outside of the
+    /// grid; they are shown as far as nearly all boxes go.
     pub bounds: Aabb3,
     /// Boxes that reach into it.
     pub boxes: usize,
-    /// Pairs of them that a sweep compares: of those that are near each other along the axis that it sweeps. Not told
-    /// of a column that is so full that it may be swept in columns of its own.
+    /// Pairs of them that a sweep compares, as they are near each other along its axis. `None` for a column so full
+    /// that it may be swept in columns of its own.
     pub candidates: Option<usize>,
 }
 
 impl Column {
-    /// Every column of a grid that holds a box, and what is in all parts of it.
+    /// All columns of a grid that hold a box, each merged from all parts.
     pub(crate) fn all<'a>(grid: &'a Grid, parts: &'a [Columns]) -> impl Iterator<Item = Self> + 'a {
         let of_y = grid.columns[1] as usize;
         let (mut gathered, crowd) = (Columns::default(), crowd(parts.iter().map(Columns::len).sum(), grid));
@@ -47,7 +47,7 @@ impl Grid {
             [(0, 1), (on_y, self.columns[0]), (on_z, self.columns[1])].into_iter().enumerate()
         {
             let axis = (self.sweep + offset) % 3;
-            // The least rank of the codes in a column: see `reach`.
+            // The least rank of the codes in a column: the inverse of `reach`.
             let first = |place: usize| ((place << 16).div_ceil(columns as usize)) as u32;
             low[axis] = self.quantiser.least(axis, first(place));
             high[axis] = self.quantiser.least(axis, first(place + 1));
@@ -77,7 +77,7 @@ mod tests {
         assert!(columns.len() > 3, "{}", columns.len());
         let whole = columns.iter().map(|column| column.bounds).reduce(|all, one| all.union(&one)).unwrap();
         for column in &columns {
-            // The outermost take all that is beyond. Codes are a 65,536th of the whole.
+            // The outermost columns take everything beyond. Codes are a 65,536th of the whole.
             let count = |more: f32| {
                 let mut grown = Aabb3::new(column.bounds.min - more, column.bounds.max + more);
                 for axis in 0..3 {
@@ -103,7 +103,7 @@ mod tests {
             },
         );
         let compared = sweep.columns().map(|column| column.candidates.unwrap()).sum::<usize>();
-        // Every pair is compared, most pairs of boxes are not, and no two of a column more than once.
+        // Every overlapping pair is compared, most other pairs are not, and no pair more than once per column.
         assert!(
             (pairs..boxes.len() * boxes.len() / 20).contains(&compared),
             "{pairs} pairs, {compared} compared"
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn a_column_that_is_cut_further_does_not_tell_what_it_compares() {
-        // Two clumps far apart: columns over both leave each in one.
+        // Two clumps far apart: columns over both leave each clump in one column.
         let part = |i: u32, by: f64| (f64::from(i) * by).fract() as f32;
         let place = |i| Vec3::new(part(i, 0.819_172_5), part(i, 0.671_043_6), part(i, 0.549_700_4));
         let aside = |i: u32| Vec3::splat(if i.is_multiple_of(2) { 0.0 } else { 1e5 });

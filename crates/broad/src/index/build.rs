@@ -1,9 +1,9 @@
-//! A tree from sorted boxes.
+//! Builds a tree from sorted boxes.
 
 use super::node::{Node, Sides, WIDTH};
 use super::order::{Item, Scratch, sort};
 
-/// Builds the tree over the boxes whose numbers stand in `items`.
+/// Builds the tree over the boxes whose numbers are in `items`.
 pub(super) struct Builder<'a, F> {
     pub(super) sides: F,
     pub(super) items: &'a mut [Item],
@@ -11,18 +11,18 @@ pub(super) struct Builder<'a, F> {
     pub(super) nodes: &'a mut Vec<Node>,
 }
 
-/// What is known about the order of some items.
+/// How some items are sorted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Order {
-    /// Nothing yet.
+    /// Not at all yet.
     None,
     /// By keys, which are not all equal.
     Keys,
-    /// No key tells them apart; they are split by count.
+    /// Their keys are equal; they are split by count.
     Any,
 }
 
-/// Some neighbouring items.
+/// A range of items.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     start: usize,
@@ -36,11 +36,10 @@ impl Part {
     }
 }
 
-/// Nodes below one another before parts are split by count, whatever their keys. Below, every node has eight equal
-/// parts.
+/// Depth from which parts are split by count, whatever their keys: from there on, every node has eight equal parts.
 const DEEP: usize = 20;
 
-/// Most nodes below one another, with 2^31 boxes.
+/// Greatest depth of the tree, with 2^31 boxes.
 pub(super) const MOST_DEPTH: usize = DEEP + 11;
 
 impl<F: Fn(u32) -> Sides> Builder<'_, F> {
@@ -80,7 +79,8 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
     fn split(&mut self, part: Part, depth: usize, parts: &mut Parts) {
         let Part { start, mut end, mut order } = part;
         if depth >= DEEP {
-            // Giants among giants would be set apart forever: so deep, they are split by count like all others.
+            // Giants among giants could be set apart again and again; at this depth they are split by count like all
+            // others.
             order = Order::Any;
         } else if order == Order::None {
             let ordinary = start + sort(&mut self.items[start..end], self.scratch, &self.sides);
@@ -108,7 +108,7 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
         self.items[start] >> 32 == self.items[end - 1] >> 32
     }
 
-    /// Where the highest bit in which keys differ turns to one.
+    /// The first item whose key has the highest bit set in which keys differ.
     fn boundary(&self, start: usize, end: usize) -> usize {
         let items = &self.items[start..end];
         let (first, last) = (items[0] >> 32, items[items.len() - 1] >> 32);
@@ -118,7 +118,7 @@ impl<F: Fn(u32) -> Sides> Builder<'_, F> {
     }
 }
 
-/// Up to eight parts of a node.
+/// The parts of a node, up to eight.
 struct Parts {
     parts: [Part; WIDTH],
     count: usize,
@@ -134,7 +134,7 @@ impl Parts {
         self.count += 1;
     }
 
-    /// The largest part that is to be split, while there is room.
+    /// The largest part that is still to be split, while there is room.
     fn largest(&self) -> Option<usize> {
         let is_large = |&place: &usize| {
             self.count < WIDTH && self.parts[place].len() > WIDTH && self.parts[place].order != Order::None
@@ -142,8 +142,8 @@ impl Parts {
         (0..self.count).filter(is_large).max_by_key(|&place| self.parts[place].len())
     }
 
-    /// Those that become nodes, and those whose boxes fit beside them: single ones, and the smallest for which
-    /// there is room.
+    /// The parts that become child nodes, and those whose boxes fit beside them as direct children: parts of a single
+    /// box, and the smallest of the others as far as there is room.
     fn inner_first(&mut self) -> (&[Part], &[Part]) {
         let parts = &mut self.parts[..self.count];
         parts.sort_unstable_by_key(|part| (core::cmp::Reverse(part.len()), part.start));
@@ -180,7 +180,7 @@ mod tests {
         1 + inner.map(|(_, child)| depth(nodes, child)).max().unwrap_or(0)
     }
 
-    /// Boxes at powers of two, below zero: each halving takes off one power.
+    /// Boxes at negative powers of two: each halving splits off one power.
     #[test]
     fn no_tree_is_deeper_than_the_stack_of_a_question() {
         for copies in [1, 9, 100] {

@@ -1,14 +1,14 @@
-//! What is moved through an index: a ray, or a box.
+//! What is cast through an index: a ray, or a box.
 
 use asunder_geometry::{
     Aabb2, Aabb3, Bounds, Ray2, Ray3,
     glam::{Vec2, Vec3},
 };
 
-/// A ray, or a box that is moved along a line, made ready to be tested against many boxes.
+/// A ray, or a box that is moved along a line, prepared for tests against many boxes.
 ///
-/// How far along is told in lengths of the direction, as by the ray it comes from. What is no box, and what is
-/// moved in a direction that is not finite, meets nothing; in the direction zero, all that it overlaps, at distance 0.
+/// Distances are in lengths of the direction, as with the ray it is made from. An empty box, or one moved in a
+/// direction that is not finite, meets nothing; with direction zero it meets all that it overlaps, at distance 0.
 ///
 /// ```
 /// use asunder_broad::{Cast, Index};
@@ -28,29 +28,29 @@ use asunder_geometry::{
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Cast {
-    /// On each axis, which side of a box is met first and last, as rows of a node.
+    /// On each axis, which side of a box is met first, and which last, as rows of a node.
     pub(crate) near: [usize; 3],
     pub(crate) far: [usize; 3],
-    /// From where that is measured.
+    /// The coordinates from which these are measured.
     pub(crate) from_near: [f32; 3],
     pub(crate) from_far: [f32; 3],
-    /// Distances a metre; rounded down and up by more than all that follows can lose.
+    /// Distance per metre; rounded down and up by more than all later rounding can add up to.
     pub(crate) per_near: [f32; 3],
     pub(crate) per_far: [f32; 3],
-    /// Lengths of the direction in one of the distances within, a power of two.
+    /// Lengths of the direction per internal unit of distance, a power of two.
     unit: f64,
 }
 
-/// Three roundings to f32 stand between a corner and a distance, of at most 2^-24 each.
+/// Relative rounding error allowed for between a corner and a distance: three roundings to f32 of at most 2^-24 each.
 const LOST: f64 = 1.0 / 4_194_304.0;
 
 impl Cast {
-    /// A box of the plane, moved by `along` in each unit of distance.
+    /// A box in the plane, moved by `along` per unit of distance.
     pub fn of_box2(bounds: &Aabb2, along: Vec2) -> Self {
         Self::of_box(bounds, [along.x, along.y, 0.0])
     }
 
-    /// A box of space, moved by `along` in each unit of distance.
+    /// A box in space, moved by `along` per unit of distance.
     pub fn of_box3(bounds: &Aabb3, along: Vec3) -> Self {
         Self::of_box(bounds, along.to_array())
     }
@@ -59,16 +59,16 @@ impl Cast {
         if bounds.is_valid() { Self::new(bounds.corners(), along) } else { Self::NOWHERE }
     }
 
-    /// A moved box meets another on an axis from when their near sides touch until their far sides do. A ray is a
-    /// box too: the smallest of f32 that holds its origin.
+    /// On an axis, a moved box meets another from when their near sides touch until their far sides do. A ray is the
+    /// smallest f32 box around its origin.
     fn new((low, high): ([f32; 3], [f32; 3]), along: [f32; 3]) -> Self {
         let longest =
             along.iter().fold(0.0, |most: f32, part| if part.abs() > most { part.abs() } else { most });
         if !along.iter().all(|part| part.is_finite()) {
             return Self::NOWHERE;
         }
-        // The power of two below the longest part: within, directions are about as long as 1, and nothing overflows
-        // early.
+        // The power of two below the longest component: internally, directions have a length of about 1, and nothing
+        // overflows early.
         let unit =
             if longest > 0.0 { f64::from_bits(f64::from(longest).to_bits() & (0x7ff << 52)) } else { 1.0 };
         let mut cast = Self { unit: 1.0 / unit, from_near: high, from_far: low, ..Self::NOWHERE };
@@ -81,7 +81,7 @@ impl Cast {
             if is_backward {
                 (cast.from_near[axis], cast.from_far[axis]) = (low[axis], high[axis]);
             }
-            // Never along this axis: infinitely long until it is met, if it is not met at once.
+            // Without motion along this axis: met after an infinite distance, unless it is met at once.
             let most = if per < f64::INFINITY { f32::MAX } else { f32::INFINITY };
             cast.per_near[axis] = sign * ((per * (1.0 - LOST)) as f32).min(most);
             cast.per_far[axis] = sign * (per * (1.0 + LOST)) as f32;
@@ -89,7 +89,7 @@ impl Cast {
         cast
     }
 
-    /// Meets nothing: the limit is NaN.
+    /// Meets nothing: its limit is NaN.
     const NOWHERE: Self = Self {
         near: [0, 1, 2],
         far: [3, 4, 5],
@@ -100,13 +100,13 @@ impl Cast {
         unit: f64::NAN,
     };
 
-    /// A distance as it is told.
+    /// Converts an internal distance to the caller's.
     #[inline(always)]
     pub(crate) fn told(&self, within: f32) -> f64 {
         f64::from(within) * self.unit
     }
 
-    /// The greatest distance that is within a limit; below 0 if there is none.
+    /// The greatest internal distance within a limit; negative if there is none.
     #[inline(always)]
     pub(crate) fn within(&self, limit: f64) -> f32 {
         let limit = limit / self.unit * (1.0 + LOST);
@@ -126,7 +126,7 @@ impl From<Ray3> for Cast {
     }
 }
 
-/// The smallest box of f32 that holds a point.
+/// The smallest f32 box that holds a point.
 fn around(point: [f64; 3]) -> ([f32; 3], [f32; 3]) {
     let nearest = point.map(|part| part as f32);
     let (mut low, mut high) = (nearest, nearest);

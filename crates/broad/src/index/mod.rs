@@ -1,39 +1,41 @@
-//! An index of boxes that rest: a tree of eight boxes a node along a Z-order curve.
+//! An index of boxes that rest: a BVH with eight children per node, built along a Z-order curve.
 //!
 //! ```text
-//! build    sort boxes by the Z-order code of their centres, giants among them apart (order)
-//!          a node: split its part of the order at the highest bit that differs, the largest piece first,
-//!          until there are eight pieces or none has more than eight boxes; pieces become nodes, or lie in this one if they fit
-//!          boxes that no code tells apart are sorted again by codes of their own; if that fails, split by count
-//! overlap  test the eight boxes of a node at once; hand over boxes; put nodes on a stack
-//! order    test the eight boxes of a node at once; whatever is nearest is next: a node is looked into, a box is handed over
+//! build    sort boxes by the Z-order code of their centres, very large ones (giants) apart from the rest (order)
+//!          for each node: split its range of the order at the highest bit that differs, the largest piece first, until
+//!          there are eight pieces or none has more than eight boxes; pieces become child nodes, or their boxes become
+//!          direct children of this node if they fit
+//!          boxes with equal codes are sorted again by codes of their own; if that fails, split by count
+//! overlap  test the eight boxes of a node at once; hand over boxes; push nodes on a stack
+//! order    test the eight boxes of a node at once; continue with whatever is nearest: visit a node, hand over a box
 //! ```
 //! Lauterbach et al., "Fast BVH construction on GPUs" (2009), for the order; Wald, Benthin and Boulos, "Getting rid
 //! of packets" (2008), for wide nodes; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
 //!
-//! What each part buys (AMD EPYC Zen 4, 2026-11-21; a box asked of 100,000 in `gas`, unless said otherwise):
-//! 1. Eight boxes a node in rows: one instruction tests eight. A node is four cache lines; a third of the
-//!    time is spent waiting for the first.
-//! 2. AVX2 by hand (wide): 1.2 to 1.4 times. The compiler makes four lanes and four single ones of the loops.
-//! 3. A sort instead of splits by cost: built in 42 ns per box, where parry3d's binned build takes 450 to 500.
-//! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make a box's overlaps 1.4 times as dear as without
-//!    walls, not 2 times; rays 1.3 times, not 1.8.
-//! 5. Small pieces lie in their parent: fewer nodes, and none that holds a single box (not measured by itself).
-//! 6. One rule for nodes and boxes, monotone under rounding: no box is lost between levels, and no margin is needed
-//!    for that.
-//! 7. The nearest piece goes on without waiting, and for one nearest box nothing waits that is further than a box
-//!    seen: what is nearest took 930 ns with a plain queue, and takes 570.
+//! What each part buys (AMD EPYC Zen 4, 2026-11-21; overlaps of a box among 100,000 in `gas`, unless said otherwise):
+//! 1. Eight boxes per node as a structure of arrays: one instruction tests eight. A node is four cache lines; a third
+//!    of the time is spent waiting for the first.
+//! 2. Hand-written AVX2 (wide): 1.2 to 1.4 times as fast. The compiler turns the loops into four lanes and four
+//!    scalars.
+//! 3. A sort instead of splits by cost: the build takes 42 ns per box, parry3d's binned build 450 to 500.
+//! 4. Giants apart: 300 walls of 60 m among 100,000 boxes of 1 m make the overlaps of a box take 1.4 times as long as
+//!    without walls, not 2 times; rays 1.3 times, not 1.8.
+//! 5. The boxes of small pieces are children of the parent: fewer nodes, and none with a single box (not measured by
+//!    itself).
+//! 6. The same test for nodes and boxes, monotone under rounding: no box is lost between levels, without any margin.
+//! 7. The nearest child bypasses the queue, and if a single nearest box is wanted, nothing is queued that is further
+//!    than a box already seen: the nearest box took 930 ns with a plain queue, and takes 570.
 //!
-//! Not the columns of the sweep (`crate::columns`): these have no order of distance, and what is nearest in an
-//! empty part of the world would have to be looked for ring by ring. Not measured themselves; a stand-in was, a
-//! grid of cells of 2 m (20 in `sizes` and
-//! `islands`; neither tuned) that holds each box once, with its sides, and knows the greatest side. For a box of
-//! the scene it takes 172 ns in `gas`, 136 among a million, 80 in `city`, 88 in `tower`; the tree 148, 149, 67 and
-//! 115. In `pile`, `sizes` and `islands` it takes 835, 487 and 6207 ns, the tree 304, 165 and 333.
+//! Why not the columns of the sweep (`crate::columns`): they have no order of distance, so the nearest box in an empty
+//! part of the world would have to be searched for ring by ring. They were not measured themselves, but a stand-in was:
+//! a grid of cells of 2 m (20 in `sizes` and `islands`; neither tuned) that stores each box once, with its bounds, and
+//! knows the greatest size. For a box of the scene it takes 172 ns in `gas`, 136 among a million, 80 in `city`, 88 in
+//! `tower`; the tree 148, 149, 67 and 115. In `pile`, `sizes` and `islands` it takes 835, 487 and 6207 ns, the tree
+//! 304, 165 and 333.
 //!
-//! Tried: many questions at once, sorted along a curve: 1.1 to 1.4 times as fast (2.5 in `islands`), their sort not
-//! counted. It is not offered; who has questions in such an order should ask them in it. Tried: nodes put on the
-//! stack without a branch, eight stores and a count: 25 % slower.
+//! Tried: batches of queries, sorted along a curve: 1.1 to 1.4 times as fast (2.5 in `islands`), the sort not counted.
+//! It is not offered; callers whose queries have such an order should keep it. Tried: pushing nodes on the stack
+//! without a branch, by eight stores and a count: 25 % slower.
 
 mod build;
 mod cast;
@@ -55,7 +57,7 @@ use core::marker::PhantomData;
 use core::ops::ControlFlow;
 use node::{Node, Sides, WIDTH};
 
-/// Boxes that rest, to be asked many times. Asking changes nothing, so that any number of threads may.
+/// Boxes that rest, for many queries. Queries change nothing, so any number of threads may make them.
 ///
 /// The boxes' numbers are their places in the slice they came in.
 ///
@@ -79,7 +81,7 @@ pub struct Index<B> {
 
 asunder_geometry::copied!(Index<B>, for [B: Bounds], { nodes, items } but { scratch, bounds });
 
-/// Nodes that wait while another is looked at: all but one of each that stands above it.
+/// Most nodes on the stack while one is visited: all but one child of each of its ancestors.
 const STACK: usize = (WIDTH - 1) * build::MOST_DEPTH + WIDTH;
 
 impl<B: Bounds> Index<B> {
@@ -88,15 +90,15 @@ impl<B: Bounds> Index<B> {
         Self { nodes: Vec::new(), items: Vec::new(), scratch: order::Scratch::default(), bounds: PhantomData }
     }
 
-    /// Forgets all boxes, and takes these instead. Boxes that are empty sets are never found.
+    /// Replaces all boxes by these. Empty boxes are never found.
     ///
-    /// Only the first 2^31 boxes are looked at. Cost: 50 to 120 ns per box, and 80 bytes per box, of which 16 are
+    /// Boxes beyond the first 2^31 are ignored. Cost: 50 to 120 ns per box, and 80 bytes per box, of which 16 are
     /// scratch memory.
     pub fn build(&mut self, boxes: &[B]) {
         self.build_from(boxes, |_| true);
     }
 
-    /// The same without the boxes that `keep` does not want. The others keep their numbers.
+    /// The same with only the boxes that `keep` wants. They keep their numbers.
     ///
     /// ```
     /// use asunder_broad::Index;
@@ -113,14 +115,14 @@ impl<B: Bounds> Index<B> {
         let numbers = (0_u32..1 << 31).zip(boxes).filter(|(number, one)| one.is_valid() && keep(*number));
         self.items.extend(numbers.map(|(number, _)| u64::from(number)));
         self.nodes.clear();
-        // There are 0.23 nodes a box, more or less, in all scenes; twice the memory if the vector had to find out.
+        // There are about 0.23 nodes per box in all scenes; a vector that grows by itself would take twice the memory.
         self.nodes.reserve(self.items.len() / 4 + 1);
         let sides = |number: u32| sides(&boxes[number as usize]);
         let (items, scratch, nodes) = (&mut self.items, &mut self.scratch, &mut self.nodes);
         build::Builder { sides, items, scratch, nodes }.build();
     }
 
-    /// How many boxes can be found.
+    /// The number of boxes in the index.
     pub fn len(&self) -> usize {
         self.items.len()
     }
@@ -137,7 +139,7 @@ impl<B: Bounds> Index<B> {
             + self.scratch.bytes()
     }
 
-    /// Replaces `into` by the boxes that overlap this one, by their numbers, sorted.
+    /// Replaces `into` by the numbers of the boxes that overlap this one, sorted.
     pub fn overlapping(&self, bounds: &B, into: &mut Vec<u32>) {
         into.clear();
         let _ = self.visit_overlapping(bounds, |number| {
@@ -147,7 +149,7 @@ impl<B: Bounds> Index<B> {
         into.sort_unstable();
     }
 
-    /// Hands the number of every box that overlaps this one to `visitor`, each once, in no promised order, until it
+    /// Hands the number of every box that overlaps this one to `visitor`, each once, in unspecified order, until it
     /// breaks off.
     #[inline]
     pub fn visit_overlapping(
@@ -162,7 +164,7 @@ impl<B: Bounds> Index<B> {
     }
 }
 
-/// Which boxes overlap one.
+/// The query for the boxes that overlap one.
 struct Overlap<'a, F> {
     nodes: &'a [Node],
     sides: Sides,

@@ -1,24 +1,24 @@
-//! Eight boxes side by side, and what is asked of them.
+//! Eight boxes side by side, and the tests against all of them.
 
 use super::cast::Cast;
 
-/// Least corner, then greatest.
+/// Minimum, then maximum.
 pub(crate) type Sides = [f32; 6];
 
 /// Boxes in a node.
 pub(crate) const WIDTH: usize = 8;
 
-/// A node: up to eight boxes, the first of them around further nodes. Four cache lines.
+/// A node: up to eight boxes, first the bounds of child nodes, then boxes of the caller. Four cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     /// A row for each side, so that eight boxes are tested by the same instructions.
     pub(crate) sides: [[f32; WIDTH]; 6],
-    /// What is in each box: first nodes, then boxes of the caller's, by their numbers.
+    /// The number of the child node or of the caller's box in each slot.
     slots: [u32; WIDTH],
-    /// How many are nodes.
+    /// How many of them are nodes.
     inner: u32,
-    /// How many there are.
+    /// How many slots are used.
     used: u32,
 }
 
@@ -26,7 +26,7 @@ impl Node {
     pub(crate) const EMPTY: Self =
         Self { sides: [[f32::NAN; WIDTH]; 6], slots: [0; WIDTH], inner: 0, used: 0 };
 
-    /// Appends a box. Nodes come first.
+    /// Appends a box. Nodes must come first.
     pub(crate) fn push(&mut self, sides: &Sides, slot: u32, is_node: bool) {
         let at = self.used as usize % WIDTH;
         for (row, &side) in self.sides.iter_mut().zip(sides) {
@@ -37,7 +37,7 @@ impl Node {
         self.used += 1;
     }
 
-    /// The nodes and the numbers of boxes that the bits of a mask stand for.
+    /// The nodes, and the numbers of the boxes, that the bits of a mask stand for.
     #[inline(always)]
     pub(crate) fn parts(&self, mask: u32) -> (Slots<'_>, Slots<'_>) {
         let nodes = mask & ((1 << self.inner) - 1);
@@ -60,23 +60,23 @@ impl Node {
     }
 }
 
-/// All bits together, half against half, as lanes are.
+/// ORs all bits by halves, as vector code does.
 #[inline(always)]
 const fn any(bits: &[u32; WIDTH]) -> u32 {
     let [a, b, c, d, e, f, g, h] = *bits;
     ((a | e) | (b | f)) | ((c | g) | (d | h))
 }
 
-/// Which of eight boxes a question is about, and how far each of these is.
+/// Which of eight boxes pass a test, and the distance of each.
 pub(crate) struct Far {
     pub(crate) mask: u32,
     pub(crate) distances: [f32; WIDTH],
 }
 
 impl Node {
-    /// Which of the eight boxes are met before the limit, and where.
+    /// Which of the eight boxes a cast meets before the limit, and where.
     ///
-    /// A NaN comes from a side that is touched all the way, or from two infinite ones, and bounds nothing:
+    /// A NaN comes from a side that is touched all the way, or from two infinite numbers. It is no bound, and
     /// comparisons drop it.
     #[inline(always)]
     pub(crate) fn crossed(&self, cast: &Cast, limit: f32) -> Far {
@@ -97,7 +97,7 @@ impl Node {
         Far { mask: any(&bits) & self.present(), distances: enter }
     }
 
-    /// Which of the eight boxes are no further than the limit, and the squares of their distances.
+    /// Which of the eight boxes are no further than the limit, and their squared distances.
     #[inline(always)]
     pub(crate) fn near(&self, one: &Sides, limit: f32) -> Far {
         let mut squares = [0.0; WIDTH];
@@ -105,7 +105,7 @@ impl Node {
             let (low, high) = (&self.sides[axis], &self.sides[axis + 3]);
             for (lane, square) in squares.iter_mut().enumerate() {
                 let (above, below) = (low[lane] - one[axis + 3], one[axis] - high[lane]);
-                // A NaN comes from two infinite sides, which touch.
+                // NaN comes from two infinite sides, which touch.
                 let gap = if above > 0.0 { above } else { 0.0 };
                 let gap = if below > gap { below } else { gap };
                 *square += gap * gap;
@@ -113,7 +113,7 @@ impl Node {
         }
         let mut bits = BITS;
         for lane in 0..WIDTH {
-            // Denormal squares have lost too much to say who is nearer; infinite ones are limits of what can be told.
+            // Denormal squares are too inexact to compare, and become 0; overflow is clamped to the greatest number.
             let square = if squares[lane] >= f32::MIN_POSITIVE { squares[lane] } else { 0.0 };
             squares[lane] = if square < f32::MAX { square } else { f32::MAX };
             bits[lane] = if squares[lane] <= limit { bits[lane] } else { 0 };
@@ -130,14 +130,14 @@ impl Node {
 
 const BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
 
-/// Some slots of a node, in their order.
+/// Some slots of a node, in order.
 pub(crate) struct Slots<'a> {
     slots: &'a [u32; WIDTH],
     mask: u32,
 }
 
 impl Iterator for Slots<'_> {
-    /// Which slot, and what is in it.
+    /// The slot, and what is in it.
     type Item = (usize, u32);
 
     #[inline(always)]

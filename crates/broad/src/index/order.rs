@@ -1,4 +1,4 @@
-//! Boxes in the order of a space-filling curve.
+//! Sorts boxes along a space-filling curve.
 
 use super::node::Sides;
 
@@ -18,17 +18,17 @@ const MOST_BITS: usize = 32;
 /// Bits of a coordinate.
 const COORDINATE: u32 = 16;
 
-/// A giant is as wide as so many cells, of which each holds about one node's boxes.
+/// A giant is wider than this many cells, each of which holds about one node's boxes.
 const GIANT: f64 = 4.0;
 
-/// Boxes of which none is a giant: too few for it to matter.
+/// So few boxes have no giants: setting them apart would not matter.
 const FEW: usize = 64;
 
-/// So few boxes are sorted along one axis: to lay a curve through them costs some microseconds. A long row of
-/// boxes, of which only so many have a key of their own, makes many such handfuls.
+/// So few boxes are sorted along one axis instead: setting up a curve costs some microseconds. A long row of boxes
+/// makes many such handfuls, as there are only so many different keys along one axis.
 const HANDFUL: usize = 24;
 
-/// Sorts the boxes along the curve, giants behind all others in no useful order; returns how many are none.
+/// Sorts the boxes along the curve, with giants behind all others in no useful order; returns how many are not giants.
 pub(super) fn sort(items: &mut [Item], scratch: &mut Scratch, sides: impl Fn(u32) -> Sides) -> usize {
     if items.len() <= HANDFUL {
         line(items, &sides);
@@ -48,7 +48,7 @@ pub(super) fn sort(items: &mut [Item], scratch: &mut Scratch, sides: impl Fn(u32
             scratch.others.push(u64::from(number));
         }
     }
-    // Where everything is a giant, nothing is.
+    // If all are giants, none is treated as one.
     if ordinary == 0 {
         for item in &mut *items {
             let number = *item as u32;
@@ -62,7 +62,7 @@ pub(super) fn sort(items: &mut [Item], scratch: &mut Scratch, sides: impl Fn(u32
     ordinary
 }
 
-/// Sorts boxes by their centres on the axis on which these lie furthest apart.
+/// Sorts boxes by their centres on the axis on which these are spread widest.
 fn line(items: &mut [Item], sides: &impl Fn(u32) -> Sides) {
     let (low, high) = centers(items, sides);
     let width = |axis: usize| f64::from(high[axis]) - f64::from(low[axis]);
@@ -70,14 +70,15 @@ fn line(items: &mut [Item], sides: &impl Fn(u32) -> Sides) {
     for item in &mut *items {
         let number = *item as u32;
         let bits = center(&sides(number), axis).to_bits();
-        // In the order of numbers: below 0, all bits are turned; above, the sign.
+        // Flips all bits of negative numbers and the sign of others, so that unsigned keys have the order of the
+        // floats.
         let key = bits ^ if bits >> 31 == 0 { 1 << 31 } else { u32::MAX };
         *item = u64::from(key) << 32 | u64::from(number);
     }
     items.sort_unstable();
 }
 
-/// Least and greatest centres on each axis, of boxes that have one.
+/// Least and greatest finite centres on each axis.
 fn centers(items: &[Item], sides: &impl Fn(u32) -> Sides) -> ([f32; 3], [f32; 3]) {
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for &item in items {
@@ -99,14 +100,13 @@ fn center(sides: &Sides, axis: usize) -> f32 {
     sides[axis] * 0.5 + sides[axis + 3] * 0.5
 }
 
-/// A Z-order curve whose cells are as near to cubes as halving allows: each bit halves the axis on which cells are
-/// longest.
+/// A Z-order curve with cells as near to cubes as halving allows: each bit halves cells along their longest axis.
 struct Curve {
     low: [f32; 3],
     scale: [f32; 3],
     bits: u32,
     giant: f32,
-    /// Key bits of the lower and upper byte of each coordinate.
+    /// The key bits for the lower and upper byte of each coordinate.
     spread: [[[u32; 256]; 2]; 3],
 }
 
@@ -117,7 +117,7 @@ impl Curve {
         let mut cell = [0.0; 3];
         for axis in 0..3 {
             let width = f64::from(high[axis]) - f64::from(low[axis]);
-            // No box has a centre here, or all have the same.
+            // Otherwise no box has a centre here, or all have the same.
             if width > 0.0 {
                 cell[axis] = width;
                 curve.scale[axis] = (65_536.0 / width).min(f64::from(f32::MAX)) as f32;
@@ -145,7 +145,7 @@ impl Curve {
             cell[axis] = if taken[axis] < COORDINATE { cell[axis] * 0.5 } else { 0.0 };
             self.bits += 1;
         }
-        // The key bit that each bit of each coordinate becomes.
+        // Maps each bit of each coordinate to its key bit.
         let (mut to, mut next) = ([[0_u32; COORDINATE as usize]; 3], [COORDINATE as usize; 3]);
         for (bit, &axis) in halved.iter().take(self.bits as usize).enumerate() {
             let axis = usize::from(axis);
@@ -168,7 +168,7 @@ impl Curve {
         let mut key = 0;
         for axis in 0..3 {
             let scaled = (center(sides, axis) - self.low[axis]) * self.scale[axis];
-            // What is not a number goes first.
+            // NaN becomes 0.
             let code = scaled.clamp(0.0, 65_535.0) as u16;
             key |=
                 self.spread[axis][0][usize::from(code & 255)] | self.spread[axis][1][usize::from(code >> 8)];
@@ -177,7 +177,7 @@ impl Curve {
     }
 }
 
-/// Most bits of a digit: its counters fit the nearest cache.
+/// Most bits of a digit, so that its counters fit the nearest cache.
 const DIGIT: u32 = 11;
 
 /// Sorts by the lower bits of the keys, least digit first.

@@ -1,16 +1,15 @@
-//! What has been seen from afar, nearest first.
+//! A priority queue of nodes and boxes, nearest first.
 
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Scratch memory of questions whose answers come in order of distance. Keep one a thread, so that asking allocates
-/// nothing.
+/// Scratch memory for queries that answer in order of distance. Keep one per thread, so that queries allocate nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
     heap: BinaryHeap<Reverse<Next>>,
 }
 
-/// A node or a box: its distance in the upper half, then a bit that puts nodes before boxes at the same, then its
+/// A node or a box: its distance in the upper half, then a bit that puts nodes before boxes at equal distance, then its
 /// number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Next(u64);
@@ -18,7 +17,7 @@ pub(super) struct Next(u64);
 const IS_BOX: u64 = 1 << 31;
 
 impl Next {
-    /// A node, at a distance that is not below 0: then its bits are in the order of numbers.
+    /// A node, at a distance that is not negative: then its bits have the order of the floats.
     #[inline(always)]
     pub(super) fn node(distance: f32, number: u32) -> Self {
         Self(u64::from(distance.to_bits()) << 32 | u64::from(number))

@@ -1,4 +1,4 @@
-//! What is crossed, and what is near: boxes at a distance.
+//! Queries by distance: which boxes a cast crosses, and which are near.
 
 use super::cast::Cast;
 use super::node::{Far, Node, Sides};
@@ -8,10 +8,10 @@ use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
-/// A box that was found at a distance.
+/// A box that a query found, and its distance.
 ///
-/// The distance is never too great, down to 1e-38 m: what is in the box is that far away or further. It falls short
-/// by at most 1e-6 of itself, where f32 can tell.
+/// Down to 1e-38 m the distance is a lower bound: what is in the box is that far away or further. It falls short by at
+/// most 1e-6 of itself, within the range of f32.
 ///
 /// ```
 /// use asunder_broad::Found;
@@ -25,8 +25,8 @@ pub struct Found {
     pub number: u32,
 }
 
-/// A question about distances: one rule for nodes and boxes, which is monotone, so that no box is nearer than the
-/// node around it.
+/// A query by distance. Nodes and boxes take the same test, which is monotone, so that no box is nearer than the node
+/// around it.
 pub(super) trait Ask: Copy {
     fn ask<W: Width>(&self, width: W, node: &Node, limit: f32) -> Far;
     fn told(&self, within: f32) -> f64;
@@ -50,11 +50,12 @@ impl Ask for &Cast {
     }
 }
 
-/// How near to a box others are. Distances within are squares.
+/// The query for boxes near a box. Internal distances are squared.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct To(pub(super) Sides);
 
-/// Some roundings to f32 stand between corners and a distance; in its square, five of at most 2^-24 each.
+/// Relative rounding error allowed for between corners and a distance: in its square, five roundings to f32 of at most
+/// 2^-24 each.
 const LOST: f64 = 1.0 / 4_194_304.0;
 
 impl Ask for To {
@@ -71,16 +72,16 @@ impl Ask for To {
     #[inline(always)]
     fn within(&self, limit: f64) -> f32 {
         let limit = limit * (1.0 + 2.0 * LOST);
-        // The least square that counts is the square of 1e-19 m.
+        // Squares below that of 1e-19 m count as 0.
         if limit >= 0.0 { ((limit * limit) as f32).clamp(f32::MIN_POSITIVE, f32::MAX) } else { -1.0 }
     }
 }
 
 impl<B: Bounds> Index<B> {
-    /// Replaces `into` by the boxes that are crossed no later than at `limit`, in order of distance, then of number.
+    /// Replaces `into` by the boxes that are crossed at `limit` or earlier, in order of distance, then of number.
     ///
-    /// None is left out that is crossed within 1e38 lengths; one that is missed by less than rounding (1e-6 of the
-    /// distance) may be among them.
+    /// No box that is crossed within 1e38 lengths is left out; one that is missed by no more than rounding (1e-6 of the
+    /// distance) may be included.
     pub fn crossed(&self, cast: &Cast, limit: f64, into: &mut Vec<Found>) {
         into.clear();
         let _ = self.visit_crossed(cast, limit, |found| {
@@ -90,8 +91,8 @@ impl<B: Bounds> Index<B> {
         into.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance).then(a.number.cmp(&b.number)));
     }
 
-    /// Hands every box that is crossed no later than at `limit` to `visitor`, each once, in no promised order,
-    /// until it breaks off.
+    /// Hands every box that is crossed at `limit` or earlier to `visitor`, each once, in unspecified order, until it
+    /// breaks off.
     pub fn visit_crossed(
         &self,
         cast: &Cast,
@@ -105,8 +106,8 @@ impl<B: Bounds> Index<B> {
         widest(Visit { nodes: &self.nodes, asked: cast, limit, visitor })
     }
 
-    /// Hands boxes that are crossed to `visitor` in order of distance, then of number. What it returns is the limit
-    /// from then on: the same, or the distance of what it found in the box; below 0 to end.
+    /// Hands boxes that are crossed to `visitor` in order of distance, then of number. It returns the limit from then
+    /// on: the same, or the distance of what it found in the box; a negative number ends the query.
     ///
     /// ```
     /// use asunder_broad::{Index, Queue};
@@ -137,7 +138,7 @@ impl<B: Bounds> Index<B> {
     /// Replaces `into` by the boxes nearest to a box, at most `count`, in order of distance, then of number. A
     /// point is a flat box.
     ///
-    /// Distances below 1e-19 m count as 0, and none is told that is beyond 1.8e19 m.
+    /// Distances below 1e-19 m count as 0, and none beyond 1.8e19 m is reported.
     ///
     /// ```
     /// use asunder_broad::{Index, Queue};
@@ -160,8 +161,8 @@ impl<B: Bounds> Index<B> {
         });
     }
 
-    /// Hands boxes no further from a box than `limit` to `visitor` in order of distance, then of number. What it
-    /// returns is the limit from then on; below 0 to end.
+    /// Hands boxes no further from a box than `limit` to `visitor` in order of distance, then of number. It returns the
+    /// limit from then on; a negative number ends the query.
     ///
     /// ```
     /// use asunder_broad::{Index, Queue};
@@ -190,7 +191,7 @@ impl<B: Bounds> Index<B> {
     }
 }
 
-/// What a question is about, in no order.
+/// A query that visits boxes in no order.
 struct Visit<'a, A, F> {
     nodes: &'a [Node],
     asked: A,
@@ -223,16 +224,16 @@ impl<A: Ask, F: FnMut(Found) -> ControlFlow<()>> Kernel for Visit<'_, A, F> {
     }
 }
 
-/// The same, best first: whatever is nearest is next, be it a node to look into or a box to hand over (Hjaltason
-/// and Samet, "Distance browsing in spatial databases", 1999). At equal distances nodes come first, as they may
-/// hold a box with a lesser number.
+/// A best-first query: whatever is nearest is next, be it a node to visit or a box to hand over (Hjaltason and Samet,
+/// "Distance browsing in spatial databases", 1999). At equal distances nodes come first, as they may hold a box with a
+/// lesser number.
 ///
-/// Two shortcuts: the nearest part of a node, if nothing that waits is nearer, is next without having waited; and
-/// where one box is wanted, nothing waits that is further than a box that was seen.
+/// Two shortcuts: the nearest child of a node bypasses the queue if nothing there is nearer; and if a single box is
+/// wanted, nothing is queued that is further than a box already seen.
 struct InOrder<'a, A, F> {
     nodes: &'a [Node],
     asked: A,
-    /// How far to look, and whether one box is all that is wanted.
+    /// How far to look, and whether a single box is wanted.
     limit: (f64, bool),
     queue: &'a mut Queue,
     visitor: F,
@@ -249,7 +250,7 @@ impl<A: Ask, F: FnMut(Found) -> f64> Kernel for InOrder<'_, A, F> {
         let mut next = if nodes.is_empty() { None } else { Some(Next::node(0.0, 0)) };
         while let Some(one) = next.filter(|next| next.distance() <= limit) {
             if let Some(number) = one.boxed() {
-                // A limit that grows would find what was dropped before only in part.
+                // The limit never grows: what is beyond it has been dropped already.
                 let found = Found { distance: asked.told(one.distance()), number };
                 let wanted = asked.within(visitor(found));
                 limit = if wanted < limit { wanted } else { limit };

@@ -1,4 +1,4 @@
-//! What an index is asked, asked of one box: for boxes that are in none.
+//! The queries of an index for a single box, for boxes that are in no index.
 
 use super::cast::Cast;
 use super::node::Node;
@@ -8,8 +8,8 @@ use crate::width::Portable;
 use asunder_geometry::Bounds;
 
 impl Cast {
-    /// How far along a box is met, if no later than at `limit`: what an [`Index`](crate::Index) with this box would
-    /// tell.
+    /// The distance at which a box is met, if at `limit` or earlier: the same as an [`Index`](crate::Index) of this box
+    /// would give.
     ///
     /// A box that holds another is met no later than that one.
     ///
@@ -28,8 +28,8 @@ impl Cast {
     }
 }
 
-/// How far two boxes are apart, at least, in metres, if they are boxes: what an [`Index`](crate::Index) of one
-/// would tell of the other.
+/// A lower bound of the distance between two boxes in metres, `None` if one is empty: the same as an
+/// [`Index`](crate::Index) of one would give for the other.
 ///
 /// A box that holds another is no further from a third than that one.
 ///

@@ -1,14 +1,14 @@
-//! What is asked of a node, in AVX2: one instruction where [`super::node`] has a loop over eight lanes, with the
-//! same results.
+//! The tests of a node in AVX2: one instruction where [`super::node`] has a loop over eight lanes, with the same
+//! results.
 //!
-//! The compiler does not find these by itself: it unrolls the loops first, and puts four lanes and four times one
-//! together again. All questions take 1.2 to 1.4 times as long that way (AMD EPYC Zen 4, 2026-11-21).
+//! The compiler does not find them by itself: it unrolls the loops first, and then forms four lanes and four scalars.
+//! All queries take 1.2 to 1.4 times as long that way (AMD EPYC Zen 4, 2026-11-21).
 
 use super::cast::Cast;
 use super::node::{Far, Node, Sides};
 use crate::width::Portable;
 
-/// What is asked of the eight boxes of a node. [`Node`]'s own methods are the definition.
+/// The tests of the eight boxes of a node. [`Node`]'s own methods are the definition.
 pub(crate) trait EightBoxes {
     /// [`Node::overlapping`].
     fn overlapping(self, node: &Node, one: &Sides) -> u32;
@@ -43,7 +43,7 @@ mod avx2 {
     use crate::width::Avx2;
     use core::arch::x86_64::*;
 
-    // SAFETY, of all three: this value says that the processor has AVX2.
+    // SAFETY of all three: this value proves that the processor has AVX2.
     impl EightBoxes for Avx2 {
         #[inline(always)]
         fn overlapping(self, node: &Node, one: &Sides) -> u32 {
@@ -99,7 +99,7 @@ mod avx2 {
                 let gap = _mm256_sub_ps(row(&node.sides[side]), _mm256_set1_ps(from));
                 _mm256_mul_ps(gap, _mm256_set1_ps(per))
             };
-            // Of a NaN and a number, these give the second.
+            // If the first operand is NaN, these return the second.
             enter = _mm256_max_ps(along(cast.near[axis], cast.from_near[axis], cast.per_near[axis]), enter);
             leave = _mm256_min_ps(along(cast.far[axis], cast.from_far[axis], cast.per_far[axis]), leave);
         }

@@ -1,4 +1,4 @@
-//! What loose boxes cost, and that nothing shows that there are any.
+//! Tests of what loose boxes cost, and that results do not depend on them.
 
 use super::{LooseSweep, Moved, PACE, State};
 use crate::sweep::trial::{Way, steps_of};
@@ -8,7 +8,7 @@ use asunder_geometry::{Aabb2, Aabb3, Bounds};
 use asunder_scenes::boxes::{BoxScene, MovingBoxes};
 use asunder_scenes::random::Random;
 
-/// The box as far off as a random vector of that length at most.
+/// The box, moved by a random vector of at most this length.
 fn beside(of: &Aabb3, metres: f64, random: &mut Random) -> Aabb3 {
     let by = (random.direction() * metres * random.unit()).as_vec3();
     Aabb3::new(of.min + by, of.max + by)
@@ -18,7 +18,7 @@ fn flat(of: &Aabb3) -> Aabb2 {
     Aabb2::new(of.min.truncate(), of.max.truncate())
 }
 
-/// A loose sweep beside one that knows nothing of before.
+/// A loose sweep, and one without history for comparison.
 struct Twins<B> {
     loose: LooseSweep<B>,
     pairs: Vec<PairId>,
@@ -30,7 +30,7 @@ impl<B: Bounds> Twins<B> {
         Self { loose: LooseSweep::new(), pairs: Vec::new(), fresh: Vec::new() }
     }
 
-    /// Updates with so many pairs fewer allowed than there are, and compares.
+    /// Updates with a limit of `fewer` pairs less than there are, and compares.
     fn check(&mut self, boxes: &[B], moved: &[u32], changed: &[u32], (groups, fewer): (&[u32], usize)) {
         let admit = |a: u32, b: u32| groups[a as usize] != groups[b as usize];
         Sweep::new().pairs(boxes, admit, usize::MAX, &mut self.fresh).unwrap();
@@ -46,7 +46,7 @@ impl<B: Bounds> Twins<B> {
     }
 }
 
-/// Boxes tremble about their places, fly, rest, come and go, become others, and are no boxes at all for a while.
+/// Boxes tremble in place, fly, rest, are added and removed, change their identity, and are invalid for a while.
 #[test]
 fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     let mut random = Random::new(811);
@@ -58,7 +58,7 @@ fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
         let mut groups: Vec<u32> = (0..boxes.len() as u32).collect();
         let (mut space, mut plane) = (Twins::new(), Twins::new());
         for frame in 0..150_u32 {
-            // Trembling for long, then some of it while others fly, rest, or change.
+            // Trembling for a long time, then a mix of trembling, flying, resting and changing.
             let wild = if frame % 50 < 30 { 0.0 } else { [0.0, 0.002, 0.01, 0.4][random.below(4)] };
             let share = if frame % 50 < 45 { 1.0 } else { [0.0, 0.1, 0.3][random.below(3)] };
             let (mut moved, mut changed) = (Vec::new(), Vec::new());
@@ -72,7 +72,7 @@ fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
                 } else {
                     match random.below(5) {
                         0 => Aabb3::NOTHING,
-                        // Inside out, and in the middle of where it was.
+                        // Inverted, and in the middle of where it was.
                         1 => {
                             let middle = 0.5 * (homes[place].min + homes[place].max);
                             Aabb3::new(middle + 1e-3, middle - 1e-3)
@@ -109,13 +109,13 @@ fn a_loose_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
             }
         }
     }
-    // All ways were gone, often.
+    // Every path was taken, often.
     assert!(in_space > 500 && in_plane > 300, "{in_space} and {in_plane} frames with loose boxes");
     assert!(met_all > 200 && looked_up > 100, "{met_all} frames without strays, {looked_up} with some");
     assert!(lists > 200, "{lists} frames in which a pair of loose boxes was none of boxes");
 }
 
-/// Steps of each of some frames, and what was swept; boxes are moved, each time, by what is told.
+/// The steps of each frame, for the loose and the plain sweep, and the state; `go` moves the boxes each frame.
 fn steps(frames: u32, boxes: &mut [Aabb3], mut go: impl FnMut(&mut [Aabb3])) -> Vec<([usize; 2], State)> {
     let (mut loose, mut plain, mut pairs) = (LooseSweep::new(), Sweep::new(), Vec::new());
     let places: Vec<u32> = (0..boxes.len() as u32).collect();
@@ -151,8 +151,8 @@ fn boxes_that_tremble_are_hardly_ever_swept() {
     assert!(plain > 180 * 3000 && loose * 50 < plain, "{loose} steps, {plain} of sweeps");
 }
 
-/// Symptom: one frame in which none moved ended loose boxes, and counted as a failure of theirs: a game that moves its
-/// bodies in every second frame swept all boxes again and again.
+/// Symptom: one frame in which no box moved ended loose boxes, and counted as their failure, so that a game which moves
+/// its bodies in every second frame swept all boxes again and again.
 #[test]
 fn frames_in_which_none_moves_do_not_end_loose_boxes_until_they_are_many() {
     let mut random = Random::new(813);
@@ -192,7 +192,7 @@ fn boxes_that_fly_cost_little_more_than_sweeping_them() {
     assert!((5..40).contains(&tried), "loose in {tried} of 400 frames");
 }
 
-/// One giant, and a plate without height: how wide a loose box is has to do with its own box alone.
+/// With one giant, and a plate without height: the margin of a loose box depends only on its own box.
 #[test]
 fn loose_boxes_are_as_wide_as_their_own_box_allows() {
     let at = |x: f32| {
@@ -215,7 +215,7 @@ fn loose_boxes_are_as_wide_as_their_own_box_allows() {
     assert!(matches!(twins.loose.state, State::Loose { frames } if frames > 5));
     let widths = &twins.loose.widths;
     let paces = |metres: f32| 0.9 * PACE * metres..1.1 * PACE * metres;
-    // A coordinate near a million is off by a sixteenth.
+    // A coordinate near a million is rounded to a sixteenth.
     assert!(widths[0] < PACE * 0.1 && paces(0.01).contains(&widths[2]), "{widths:?}");
     assert!(0.0 < widths[1] && widths[1] < 0.1 && widths[3].is_finite(), "{widths:?}");
 }

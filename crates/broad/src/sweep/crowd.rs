@@ -1,11 +1,11 @@
-//! Whether columns are of any use to boxes as they lie: told by how many candidates there are in them.
+//! Whether columns are of any use to the boxes as they lie, judged by the number of candidates in them.
 
 use super::segments::worth;
 use super::trial::{Way, way};
 use crate::columns::grid::Grid;
 use crate::columns::{ColumnEntries, Columns};
 
-/// What some columns hold.
+/// Totals over some columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Crowd {
     candidates: usize,
@@ -14,23 +14,23 @@ pub(super) struct Crowd {
     fullest: usize,
 }
 
-/// A column with so many times as many boxes as the others is cut further by itself.
+/// If the fullest column has this many times the average, it is to blame alone, and is cut further by itself.
 const CROWDED: usize = 8;
 
-/// Whether columns hold so many boxes on average that candidates may be worth counting: where all columns are like each
-/// other, half of what is compared here is all that there are.
+/// Whether columns hold so many boxes on average that counting candidates may be worth it. Takes twice the most that
+/// there could be if all columns were alike.
 pub(super) fn may_be_crowded(boxes: usize, entries: usize, grid: &Grid) -> bool {
     let most = (worth(boxes) as u64).saturating_mul(boxes as u64).saturating_mul(grid.count() as u64);
     way() == Way::Segments || (entries as u64).saturating_mul(entries as u64) > most
 }
 
 impl Crowd {
-    /// What all columns hold. Cost: linear in their entries.
+    /// Totals over all columns. Cost: linear in their entries.
     pub(super) fn of(columns: &Columns, grid: &Grid) -> Self {
         (0..grid.count()).fold(Self::default(), |crowd, index| crowd.and(&columns.column(grid, index), grid))
     }
 
-    /// One column more.
+    /// Adds one column.
     pub(super) fn and(self, column: &ColumnEntries<'_>, grid: &Grid) -> Self {
         let entries = column.entries.len();
         Self {
@@ -40,7 +40,7 @@ impl Crowd {
         }
     }
 
-    /// Both together.
+    /// The sum of both.
     #[cfg(feature = "parallel")]
     pub(super) fn with(self, other: Self) -> Self {
         Self {
@@ -50,8 +50,8 @@ impl Crowd {
         }
     }
 
-    /// Whether a walk by segments through all boxes takes less time than to sweep these columns, none of which is to
-    /// blame alone.
+    /// Whether a walk by segments through all boxes takes less time than these columns would, and no single column is
+    /// to blame.
     pub(super) fn is_worth_segments(&self, boxes: usize, grid: &Grid) -> bool {
         let is_even = self.fullest * grid.count() < CROWDED * self.entries;
         way() == Way::Segments || is_even && self.candidates > boxes * worth(boxes)

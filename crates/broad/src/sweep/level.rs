@@ -1,4 +1,4 @@
-//! The columns of a grid, one after the other; those that are too full, in columns of their own.
+//! Sweeps the columns of a grid one after the other; columns that are too full are swept in columns of their own.
 
 use super::rows::{HITS, Hit, Progress, Strips};
 use super::segments::{Segments, worth};
@@ -11,18 +11,18 @@ use crate::width::{Kernel, Width, widest};
 use asunder_geometry::Bounds;
 use core::ops::{ControlFlow, Range};
 
-/// Scratch memory of a thread.
+/// Scratch memory of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     strips: Strips,
     /// A column of several parts, put together.
     gathered: Columns,
     nested: Option<Box<Nested>>,
-    /// What boxes are swept with where columns are of no use.
+    /// For where columns are of no use.
     pub(super) segments: Segments,
 }
 
-/// What a column that is too full is swept with.
+/// Sweeps a column that is too full in columns of its own.
 #[derive(Debug, Default)]
 struct Nested {
     columns: Columns,
@@ -30,36 +30,37 @@ struct Nested {
     scratch: Scratch,
 }
 
-/// A column is swept in columns of its own only if it has so many boxes,
+/// A column counts as crowded if it holds more than this many boxes,
 const MANY: usize = 96;
-/// so many times as many as columns have on average,
+/// and either this many times the average of all columns,
 const CROWDED: usize = 3;
-/// or so many in one bin, as all that lies outside of the grid has,
+/// or this many in one bin, as the outermost bins do that take all that lies outside of the grid.
 const HEAP: usize = 48;
-/// so many candidates a box, eight rounds of lanes, which take about as long as to put the box into columns again (32
-/// in place of 128: 1.7 times as long for 1000 boxes in eight clumps, 1.2 times for 2000, elsewhere the same; Zen 4,
-/// 2026-11-22),
+/// A crowded column is worth columns of its own above this many candidates per box, eight rounds of lanes, which take
+/// about as long as to put the box into columns again (32 in place of 128: 1.7 times as long for 1000 boxes in eight
+/// clumps, 1.2 times for 2000, elsewhere the same; Zen 4, 2026-11-22),
 const FULL: usize = 128;
-/// and is expected to have so many times fewer then.
+/// if these are expected to reduce the candidates by this factor.
 const GAIN: f64 = 2.0;
 
-/// Candidates that are looked at before a walk by segments.
+/// Candidates that are sampled before a walk by segments.
 const LOOKS: usize = 128;
-/// What a candidate costs that codes cannot part and the boxes do, in those that codes part.
+/// Cost of a candidate that only the boxes can separate, relative to one that codes separate.
 const MISLED: usize = 20;
 
-/// Columns within columns at most, for clumps of clumps of clumps: each costs twice as much of this as boxes get
-/// entries in it on average, so that there are six where few straddle, two where all do, and some dozens of entries a
-/// box at most. What is a heap after them is for segments (24 in place of 12: up to 1.5 times as long where clumps
-/// shrink by halves; 8: 0.8 to 1.3 times there, and up to 1.4 where they shrink by thousandths; Zen 4, 2026-11-22).
+/// Budget for the nesting of columns, as clumps of clumps of clumps need it. Each level uses up twice the number of
+/// entries that its boxes have on average: this allows six levels where few boxes straddle columns, two where all do,
+/// and some dozens of entries per box at most. What is still crowded after that is left to segments (24 in place of 12:
+/// up to 1.5 times as long where clumps shrink by halves; 8: 0.8 to 1.3 times there, and up to 1.4 where they shrink by
+/// thousandths; Zen 4, 2026-11-22).
 const DEEPEST: usize = 12;
 
-/// Boxes that make a column crowded, where so many are in all columns of a grid.
+/// How many boxes make a column crowded, if all columns of the grid hold `all` of them.
 pub(crate) fn crowd(all: usize, grid: &Grid) -> usize {
     CROWDED * all / grid.count()
 }
 
-/// Candidates a box of a column that is so full that it may be worth columns of its own, or segments.
+/// Candidates per box of a column, if it is so full that columns of its own, or segments, may be worth it.
 #[inline(always)]
 pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) -> Option<usize> {
     let count = column.entries.len();
@@ -67,7 +68,7 @@ pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) ->
         return Some(count);
     }
     let is_crowd = count > MANY && (count > crowd || column.fullest_bin() > HEAP);
-    // However evenly they lie.
+    // However even the columns are, one may be so full that segments pay.
     let least = if is_crowd { FULL } else { worth(count).max(FULL) };
     if count <= least {
         return None;
@@ -75,10 +76,10 @@ pub(crate) fn overfull(column: &ColumnEntries<'_>, grid: &Grid, crowd: usize) ->
     Some(column.candidates(grid) / count).filter(|&full| full > least)
 }
 
-/// Whether a column that is swept as it is takes longer than a walk by segments.
+/// Whether to sweep a column as it is would take longer than a walk by segments.
 ///
-/// Candidates that codes cannot part cost more, by far: clumps far smaller than a code take 3 ns per candidate in place
-/// of 0.17 (Zen 4, 2026-11-22). So some candidates are looked at.
+/// Candidates that codes cannot separate cost far more: clumps far smaller than a code take 3 ns per candidate in place
+/// of 0.17 (Zen 4, 2026-11-22). So some candidates are sampled.
 #[inline(never)]
 fn is_hard(
     full: usize,
@@ -92,7 +93,7 @@ fn is_hard(
         let end = column.row_end(&entries[row].codes, grid).min(entries.len());
         let candidates = &entries[(row + 1).min(end)..end];
         let one = &entries[row];
-        // In no step with the rows.
+        // Not in step with the rows.
         let other = candidates.get(candidates.len() * (number * 37 % LOOKS) / LOOKS);
         other.is_some_and(|other| may_overlap(&one.codes, &other.codes) && !overlap(one, other))
     };
@@ -107,7 +108,7 @@ impl Scratch {
         self.gathered.gather(parts, grid, index)
     }
 
-    /// What was swept by segments, in columns of columns too.
+    /// Memory of segments, that of nested columns included.
     #[cfg(test)]
     pub(super) fn bytes_of_segments(&self) -> usize {
         self.segments.bytes() + self.nested.as_ref().map_or(0, |nested| nested.scratch.bytes_of_segments())
@@ -121,14 +122,15 @@ impl Scratch {
     }
 }
 
-/// Some columns of boxes that were sorted in one or more parts.
+/// A range of columns to sweep, of boxes that were sorted in one or more parts.
 pub(super) struct Level<'a, 'q, B, const NESTED: bool> {
     pub(super) parts: &'a [Columns],
     pub(super) grid: &'a Grid,
     pub(super) range: Range<usize>,
     pub(super) question: &'a mut Question<'q, B>,
     pub(super) scratch: &'a mut Scratch,
-    /// If these are columns of a column: what its boxes are called outside, and how deep it is.
+    /// If these are nested columns: the places of their boxes in the column around, and how much of [`DEEPEST`] is used
+    /// up.
     pub(super) around: (Option<&'a Names<'a>>, usize),
 }
 
@@ -154,7 +156,7 @@ impl<B: Bounds, const NESTED: bool> Kernel for Level<'_, '_, B, NESTED> {
             if let Some(full) = overfull(&column, grid, crowd) {
                 if depth < DEEPEST && way() != Way::SegmentsInColumns {
                     let nested = nested.get_or_insert_default();
-                    // Columns that leave most boxes in one were misled by what lies far outside.
+                    // If most boxes are in one column, outliers far away have stretched the grid.
                     let over = if 2 * column.entries.len() > all { Over::Bulk } else { Over::All };
                     if let Some(flow) = nested.sweep((&column, grid), (full, over), question, (names, depth))
                     {
@@ -183,7 +185,8 @@ impl<B: Bounds, const NESTED: bool> Kernel for Level<'_, '_, B, NESTED> {
 }
 
 impl Nested {
-    /// Sweeps a column in columns, by fresh statistics; not if they promise too little.
+    /// Sweeps a column in columns of its own, by fresh statistics. `None`, and nothing swept, if they promise too
+    /// little.
     fn sweep<B: Bounds>(
         &mut self,
         (column, around): (&ColumnEntries<'_>, &Grid),
@@ -196,14 +199,15 @@ impl Nested {
         let pick = |entry: &Entry| boxes[outermost(entry.place & PLACE, outer) as usize];
         let grid = Grid::for_boxes(column.entries.len(), over, |place| pick(&column.entries[place]));
         let is_gain = grid.count() > 1 || grid.expected * GAIN <= full as f64;
-        // Of boxes all around one spot, say: it would be the same again.
+        // A grid like the one around (of boxes that all share one spot, say) would bring the same again.
         if !is_gain || grid.is_like(around) {
             return None;
         }
         let pick = |place: usize| pick(&column.entries[place]);
         let grid = widest(Fill::<_, SCATTERED> { columns, grid, count: column.entries.len(), pick });
         let (before, after) = (column.entries.len(), columns.len());
-        // Unless many straddle, what is a heap still is told apart further down.
+        // Where many boxes straddle, the columns as filled must show the gain; otherwise the next level cuts what is
+        // still crowded.
         let straddle = after > before + before / 2;
         if straddle && columns.candidates(&grid) as f64 * GAIN > (full * before) as f64 {
             return None;

@@ -1,51 +1,52 @@
-//! Sweep and prune in columns: all overlapping pairs of boxes, from nothing but the boxes.
+//! Sweep and prune in columns: finds all overlapping pairs of boxes, without any history.
 //!
 //! ```text
-//! look at a few boxes: where they are, how large, how crowded                        columns/grid
-//! choose the axis along which boxes are smallest, and lay columns over the other two
-//! round every bound to 16 bits, monotonically                                        columns/codes
-//! sort the boxes into columns and, in a column, into bins along the sweep axis,
-//!   by counting; a box that straddles columns goes into each                         columns
-//! for each column that is far too full: the same for its boxes alone                 level
-//! where that is of no use, in a column or in all: a walk with a bound on its cost    crowd, segments
-//! for each column: for each box, in order: sixteen boxes at a time, until the bin
-//!   in which it ends: which overlap it on all three axes, by their codes?            rows
-//! for each such pair: is this the column that has the greater of both minima, on
-//!   both axes? where two codes are equal, do the boxes overlap? is it admitted?      settle
-//! sort the pairs, by digits                                                          order
+//! sample a few boxes: where are they, how large, how crowded?                        columns/grid
+//! sweep along the axis on which boxes are smallest, lay columns over the other two
+//! quantise every bound to a code of 16 bits, monotonically                           columns/codes
+//! counting sort of the boxes into columns and, within a column, into bins along
+//!   the sweep axis; a box that straddles columns goes into each of them              columns
+//! a column that is far too full is swept in columns of its own                       level
+//! where columns do not help, in one column or in all: a walk of bounded cost         crowd, segments
+//! for each column, each box in order: test it against the boxes after it, sixteen
+//!   at a time, up to the bin in which it ends; on all three axes, by codes           rows
+//! for each hit: does this column own the pair (hold the greater of both minima on
+//!   both column axes)? if two codes are equal, test the boxes; ask the filter        settle
+//! radix sort of the pairs                                                            order
 //! ```
-//! Codes are monotone: a code that is less proves a bound that is less, and only equal codes ask the boxes (1 pair
-//! in 100). The owner rule names one column for every pair, by codes as well, so that no pair comes twice and none
-//! is lost.
+//! Codes are monotone: a lesser code proves a lesser bound, so only where codes are equal must the boxes be compared (1
+//! pair in 100). The owner rule, which works on codes too, picks exactly one column for every pair: no pair is found
+//! twice and none is lost.
 //!
 //! Baraff's sweep and prune (1992) in the cells of a regular grid, after Terdiman, "Box pruning revisited" (2017), for
 //! the wide tests on integers; Tracy, Buss & Woods, "Efficient large-scale sweep and prune methods with AABB insertion
-//! and removal" (2009), for the segmentation. Cost: linear in boxes and pairs, for boxes of like size; a scene of all
-//! sizes costs more entries. No scene costs more than n log^3 n + pairs, by [`segments`], but for pairs that are found
-//! again in every column that both boxes share.
+//! and removal" (2009), for the segmentation. Cost: linear in boxes and pairs where boxes are of similar size; widely
+//! different sizes cost more entries per box. By [`segments`], no scene costs more than n log^3 n + pairs, except that
+//! a pair may be found in every column that both of its boxes share.
 //!
 //! # What each technique bought
-//! At 10,000 boxes of `gas` and `pile`, ns per box in all, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
+//! Total ns per box for 10,000 boxes of `gas` and `pile`, AMD EPYC (Zen 4), one thread, 2026-11-21; the plain sweep
 //! takes 1,240.
 //!
 //! | technique | gas | pile |
 //! |---|---|---|
-//! | columns, sixteen lanes of SSE2, counting sorts, pairs sorted by their first number and then by insertion | 42.6 | 175 |
+//! | columns, sixteen lanes of SSE2, counting sorts, pairs sorted by first number and then by insertion | 42.6 | 175 |
 //! | 1. the sweep compiled for AVX2 as well | 37.2 | 126 |
-//! | 2. whole entries (16 bytes) beside the strips, so that a hit loads one line and not twelve | 33.0 | 110 |
-//! | 3. one counting sort by column and bin in place of two; sweep, owner and filter in three passes without branches | 31.2 | 103 |
+//! | 2. whole entries (16 bytes) beside the strips, so that a hit loads one cache line and not twelve | 33.0 | 110 |
+//! | 3. one counting sort by column and bin, not two; sweep, owner and filter in three branchless passes | 31.2 | 103 |
 //! | 4. one pass for codes, columns and counts; the mask of lanes by one instruction | 29.4 | 101 |
-//! | 5. lists of those that straddle on one axis, on the other, on both: no branch a box | 28.4 | 98 |
-//! | 6. pairs sorted by digits (radix), not by runs | 28.4 | 80 |
-//! | 7. the owner in two bits of the place; lanes with equal codes told by the lanes; one box a hit and round | 28.6 | 77 |
+//! | 5. lists of boxes that straddle on one axis, the other, both: no branch per box | 28.4 | 98 |
+//! | 6. radix sort of the pairs, instead of a sort of runs | 28.4 | 80 |
+//! | 7. owner rule in two bits of the place; equal codes found in the lanes; one box of a hit per round | 28.6 | 77 |
 //!
-//! Tried without gain: bins for a quarter or for all of the boxes (1 %); runs of pairs by rank in eight lanes (15
-//! ns per pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
-//! %); codes and bins of a box by hand in AVX2, half the instructions (6 % slower).
+//! Tried without gain: bins for a quarter or for all of the boxes (1 %); sorting runs of pairs by rank in eight lanes
+//! (15 ns per pair in sparse scenes, against 6); AVX-512 (0 to 2 %); counting compiled once for each sweep axis (0 to 3
+//! %); codes and bins of a box in hand-written AVX2, half the instructions (6 % slower).
 //!
-//! 8. Segments, where the candidates that columns count cost more. The named scenes are as they were. ns per box, and
-//!    in how many budgets of 80 ns per box and 20 a pair, by `compare -- broad --hurt` (AMD EPYC, Zen 4, 2 virtual
-//!    cores, one thread, 2026-11-22; quarters, and halves of 300,000, before: in a run of their own):
+//! 8. Segments, wherever comparing the candidates in the columns would cost more. The named scenes do not change. The
+//!    table gives ns per box and, in brackets, the ratio to a budget of 80 ns per box and 20 per pair, by `compare --
+//!    broad --hurt` (AMD EPYC, Zen 4, 2 virtual cores, one thread, 2026-11-22; the "before" of quarters, and of halves
+//!    at 300,000, come from a run of their own):
 //!
 //! | boxes | 30,000 before | after | 100,000 before | after | 300,000 before | after |
 //! |---|---|---|---|---|---|---|
@@ -58,19 +59,19 @@
 //! | lines without end | 280 (3.5) | 191 (2.4) | 430 (5.3) | 413 (5.1) | 770 (9.6) | 430 (5.3) |
 //! | floors, 44 pairs a box | 1,085 (1.1) | 1,096 (1.1) | 1,377 (1.4) | 1,703 (1.8) | 1,737 (1.8) | 1,820 (1.9) |
 //!
-//! Tried: segments from the start, without columns (needles of 30,000 1.7 times as long as in columns, floors 2.5
-//! times); segments at once in any column that is full (thousandths 1.6 times as long). Where clumps are a thousand
-//! times smaller than what is around them, columns of columns as deep as they go take 0.8 times as long up to 300,000.
-//! Needles stay beyond their budget: a logarithm an axis is what they cost. The machine was under load, both ways in
-//! turns.
-
+//! Tried: segments from the start, without columns (30,000 needles take 1.7 times as long as in columns, floors 2.5
+//! times); segments at once in any column that is full (thousandths take 1.6 times as long). Where clumps are a
+//! thousand times smaller than what surrounds them, nesting columns without a limit takes 0.8 times as long, up to
+//! 300,000 boxes. Needles stay over budget: they cost a logarithm per axis. The machine was under load; both ways were
+//! measured in turns.
 //!
-//! 9. Where entries or pairs are many, more than fit a near cache: entries into groups of bins before each into its bin,
-//!    and pairs into buckets before they are sorted by digits. Of a million boxes of `gas` 112 ns per box in place of
-//!    182, of `pile` 241 in place of 334, of 100,000 of `pile` 184 in place of 221 (Intel Xeon, family 6 model 85, 2
-//!    virtual cores, one thread, 2026-11-28, medians in turns).
-//! 10. Where a column is swept in columns of its own, its boxes, which lie all over memory, are read some ahead of the
-//!     work on them: of a million boxes of `islands` 157 ns per box in place of 254 (the same machine and day).
+//! 9. Where entries or pairs are more than a near cache holds: entries go into groups of bins first and then into bins,
+//!    and pairs into buckets before the radix sort. A million boxes of `gas` take 112 ns per box in place of 182, of
+//!    `pile` 241 in place of 334, and 100,000 of `pile` 184 in place of 221 (Intel Xeon, family 6 model 85, 2 virtual
+//!    cores, one thread, 2026-11-28, medians in turns).
+//! 10. Where a column is swept in columns of its own, its boxes are scattered over memory, so they are read in batches
+//!     ahead of the work on them: a million boxes of `islands` take 157 ns per box in place of 254 (the same machine
+//!     and day).
 
 mod compiled;
 mod crowd;
@@ -97,25 +98,26 @@ use level::{Level, Scratch};
 use segments::Slab;
 use settle::{Question, Sink};
 
-/// Who may pair, asked about many pairs at a time: moves those that are admitted to the front, and says how many there
+/// The pair filter, applied to many pairs at a time: moves the admitted ones to the front, and returns how many they
 /// are.
 pub(crate) type Admit<'f> = dyn Fn(&mut [PairId]) -> usize + Sync + 'f;
 
-/// What asks about one pair at a time as one that asks about many.
+/// Turns a filter of single pairs into an [`Admit`].
 pub(crate) fn keep(pairs: &mut [PairId], admit: impl Fn(u32, u32) -> bool) -> usize {
     let mut admitted = 0;
     for place in 0..pairs.len() {
         let pair = pairs[place];
-        // Written down in any case: no branch that nobody can guess.
+        // Written unconditionally: the branch would be unpredictable.
         pairs[admitted] = pair;
         admitted += usize::from(admit(pair.a, pair.b));
     }
     admitted
 }
 
-/// All overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
+/// Finds all overlapping pairs of boxes. Keep one between frames: a steady scene then allocates nothing.
 ///
-/// However the boxes lie, the cost is in O(n log^3 n + pairs), a pair once for every column that both its boxes share.
+/// However the boxes lie, the cost is O(n log^3 n + pairs), where a pair counts once for every column that both of its
+/// boxes share.
 ///
 /// It holds no history: the list depends on the boxes and the filter alone, and is the same at any thread count and
 /// vector width. In [`Sweep::pairs`], from 5,000 boxes on, the threads of the current rayon pool share the work
@@ -143,7 +145,7 @@ pub(crate) fn keep(pairs: &mut [PairId], admit: impl Fn(u32, u32) -> bool) -> us
 #[derive(Debug, Default)]
 pub struct Sweep {
     columns: Columns,
-    /// How the last sweep sorted the boxes.
+    /// The grid of the last sweep.
     grid: Option<Grid>,
     scratch: Scratch,
     order: order::Order,
@@ -161,9 +163,9 @@ impl Sweep {
 
     /// Replaces `pairs` by all overlapping pairs that `admit` lets pass, each once, sorted.
     ///
-    /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, in any order and from
-    /// any thread: bit tests on layers and owners belong here. Boxes behind the first 2^29 are not looked at. Cost:
-    /// some 30 ns per box and 10 ns per pair.
+    /// `admit` is asked once for each pair of overlapping boxes, the smaller number first, in any order and from any
+    /// thread: bit tests on layers and owners belong here. Boxes beyond the first 2^29 are ignored. Cost: some 30 ns
+    /// per box and 10 ns per pair.
     ///
     /// # Errors
     /// More than `limit` admitted pairs. `pairs` is then empty.
@@ -177,7 +179,7 @@ impl Sweep {
         self.pairs_by(boxes, &|pairs| keep(pairs, &admit), limit, pairs)
     }
 
-    /// The same, asking about many pairs at a time.
+    /// The same, with a filter of many pairs at a time.
     pub(crate) fn pairs_by<B: Bounds>(
         &mut self,
         boxes: &[B],
@@ -208,7 +210,7 @@ impl Sweep {
         Ok(())
     }
 
-    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in no promised order, until it
+    /// Hands every overlapping pair that `admit` lets pass to `visitor`, each once, in unspecified order, until it
     /// breaks off. For outputs that are too long to keep. On one thread.
     pub fn visit<B: Bounds>(
         &mut self,
@@ -249,11 +251,10 @@ impl Sweep {
         widest(level)
     }
 
-    /// The columns of the last sweep, in one piece: parts of them, as threads leave them behind, are put together
-    /// first.
+    /// The columns of the last sweep in one piece: the parts that several threads leave behind are merged first.
     ///
-    /// Who looks up boxes one by one looks up each in every part, and waits for memory there each time: in two parts
-    /// a frame of a million boxes, of which few move, took 1.8 to 2.4 times as long (Zen 4, 2026-11-22).
+    /// A lookup of single boxes would have to visit every part, and wait for memory in each: with two parts, a frame of
+    /// a million boxes of which few move took 1.8 to 2.4 times as long (Zen 4, 2026-11-22).
     pub(crate) fn put_together(&mut self) -> Option<(&Grid, &Columns)> {
         #[cfg(feature = "parallel")]
         if let Some(grid) = self.team.put_together(&mut self.columns) {
@@ -262,12 +263,12 @@ impl Sweep {
         self.whole()
     }
 
-    /// The same, if they are in one piece already.
+    /// The columns of the last sweep; only valid if they are in one piece already.
     pub(crate) fn whole(&self) -> Option<(&Grid, &Columns)> {
         Some((self.grid.as_ref()?, &self.columns))
     }
 
-    /// The columns of the last sweep, in parts, each of the boxes that follow those of the part before it.
+    /// The columns of the last sweep in parts, each with the next range of boxes.
     fn sorted(&self) -> Option<(&Grid, &[Columns])> {
         #[cfg(feature = "parallel")]
         if let Some(sorted) = self.team.sorted() {
@@ -276,9 +277,9 @@ impl Sweep {
         self.whole().map(|(grid, columns)| (grid, core::slice::from_ref(columns)))
     }
 
-    /// The columns that the last sweep sorted boxes into, for debug views: those that hold any, in the order in which
-    /// they are swept. None before the first sweep. What an overfull column was cut into is not told. Cost: linear in
-    /// all columns and in the boxes in them.
+    /// The columns that the last sweep sorted boxes into, for debug views: those that hold any box, in the order in
+    /// which they are swept. None before the first sweep. Columns within an overfull column are not listed. Cost:
+    /// linear in all columns and the boxes in them.
     ///
     /// ```
     /// use asunder_broad::Sweep;
@@ -296,8 +297,8 @@ impl Sweep {
         self.sorted().into_iter().flat_map(|(grid, parts)| Column::all(grid, parts))
     }
 
-    /// Memory that is held for the next sweep, in bytes: some 50 to 70 a box, and 9 a pair to sort them, on several
-    /// threads 30; where columns are of no use, 64 a box more, and for each thread.
+    /// Memory that is held for the next sweep, in bytes: some 50 to 70 per box, and 9 per pair for the sort (30 on
+    /// several threads); where columns are of no use, another 64 per box, for each thread.
     ///
     /// ```
     /// assert_eq!(asunder_broad::Sweep::new().bytes(), 0);

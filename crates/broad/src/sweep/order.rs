@@ -1,16 +1,16 @@
-//! Pairs in order: a radix sort, least digit first, over no more bits than the numbers have. More pairs than fit a near
-//! cache are thrown into buckets by the top of the first number before, and each bucket is sorted so.
+//! Sorts pairs: an LSD radix sort over no more bits than the numbers have. Pairs that do not fit a near cache are first
+//! distributed into buckets by the top bits of the first number, and each bucket is sorted that way.
 //!
-//! A digit costs 2 to 3.5 ns per pair, whatever its size, as long as its counters are near. Of 10,000 boxes two digits
-//! of 14 bits take 5.9 ns per pair in place of 6.8 for three of 10 (AMD EPYC, Zen 4, 2026-11-22, medians in turns).
-//! Buckets: 16.5 ns per pair in place of 26 for 400,000 pairs of 100,000 boxes, 24 in place of 37 for 4 million pairs
-//! of a million (Intel Xeon, family 6 model 85, 2026-11-28; on the Zen 4 10.5 in place of 12, and 14.5 in place of
-//! 15.0). Of 50,000 pairs they cost more: 9 ns in place of 6.8 (Zen 4).
+//! A pass costs 2 to 3.5 ns per pair, whatever the size of its digit, as long as the counters stay in a near cache. For
+//! 10,000 boxes two digits of 14 bits take 5.9 ns per pair, three of 10 bits 6.8 (AMD EPYC, Zen 4, 2026-11-22, medians
+//! in turns). Buckets: 16.5 ns per pair in place of 26 for 400,000 pairs of 100,000 boxes, 24 in place of 37 for 4
+//! million pairs of a million (Intel Xeon, family 6 model 85, 2026-11-28; on the Zen 4 10.5 in place of 12, and 14.5 in
+//! place of 15.0). For 50,000 pairs they cost more: 9 ns in place of 6.8 (Zen 4).
 //!
-//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters out of reach; Zen 4);
-//! digits of 8 and of 9 bits, without buckets (37 and 29 ns in place of 26, Xeon); keys of 32 bits in buckets (the
-//! same); pairs counted by their first number, and each run of them sorted by comparing (16 ns for 400,000 pairs, 43
-//! for 4 million, Xeon).
+//! Tried: digits of 14 and 17 bits for a million boxes (20 to 22 ns in place of 14.5: counters beyond the near cache;
+//! Zen 4); digits of 8 and of 9 bits, without buckets (37 and 29 ns in place of 26, Xeon); keys of 32 bits in buckets
+//! (no change); a counting sort by the first number, and a comparison sort of each run (16 ns for 400,000 pairs, 43 for
+//! 4 million, Xeon).
 
 use crate::pair::PairId;
 use core::ops::Range;
@@ -24,40 +24,40 @@ pub(crate) struct Order {
     ends: Vec<u32>,
 }
 
-/// Most bits of a digit: its counters fit the nearest cache.
+/// Most bits of a digit, so that its counters fit the nearest cache.
 const DIGIT: u32 = 12;
 
-/// Most bits of a digit where two are enough, and pairs as many as counters.
+/// Most bits of a digit where two digits are enough, and there are at least as many pairs as counters.
 const LONG_DIGIT: u32 = 14;
 
-/// What a pair costs in a pass, in counters that are put together.
+/// Cost of moving a pair in one pass, relative to adding up one counter.
 const A_PAIR: usize = 5;
 
-/// Fewer pairs than that are sorted by comparing.
+/// Fewer pairs are sorted by comparison.
 const FEW: usize = 64;
 
-/// So many pairs are thrown into buckets,
+/// From this many pairs on, they are distributed into buckets,
 const MANY: usize = 1 << 17;
 
-/// each of about so many pairs, or up to twice as many: their keys fit a near cache,
+/// each of about this many pairs, or up to twice as many, so that their keys fit a near cache,
 const A_BUCKET: usize = 1 << 12;
 
-/// by so many bits of the first number at most.
+/// by at most this many bits of the first number.
 const MOST_TOP: u32 = 8;
 
 impl Order {
-    /// Puts `pairs` in order. Numbers are below `count`.
+    /// Sorts `pairs`, whose numbers are below `count`.
     pub(crate) fn sort(&mut self, pairs: &mut [PairId], count: usize) {
         self.sort_from(0, pairs, count);
     }
 
-    /// The same of pairs whose second numbers ascend: by the first alone, which leaves equals as they come, half the
-    /// digits are enough.
+    /// The same for pairs whose second numbers ascend: the sort is stable, so half the digits, those of the first
+    /// number, are enough.
     pub(crate) fn sort_by_first(&mut self, pairs: &mut [PairId], count: usize) {
         self.sort_from(bits_below(count), pairs, count);
     }
 
-    /// By the bits of both numbers from this one on.
+    /// Sorts by the bits of both numbers from bit `from` on.
     fn sort_from(&mut self, from: u32, pairs: &mut [PairId], count: usize) {
         let bits = bits_below(count);
         let pack = |pair: &PairId| u64::from(pair.a) << bits | u64::from(pair.b);
@@ -97,8 +97,8 @@ impl Order {
     }
 }
 
-/// Throws the keys of pairs into buckets by the first number, without so many of its low bits; tells where each ends,
-/// and how many the fullest holds.
+/// Distributes the keys of pairs into buckets by the first number without its `low` bits. Writes where each bucket
+/// ends, and returns the size of the largest.
 fn throw(
     pairs: &[PairId],
     (low, pack): (u32, impl Fn(&PairId) -> u64),
@@ -126,7 +126,7 @@ fn throw(
     longest as usize
 }
 
-/// Sorts keys by some of their bits, and unpacks them; both lists are as long as there are pairs.
+/// Sorts keys by some of their bits, and unpacks them; both buffers are as long as `pairs`.
 #[inline(always)]
 fn by_digits<'k>(
     (mut keys, mut others): (&'k mut [u64], &'k mut [u64]),
@@ -169,17 +169,17 @@ fn by_digits<'k>(
     }
 }
 
-/// Bits of a number up to this one.
+/// Bits that numbers up to this one need.
 fn bits_below(count: usize) -> u32 {
     usize::BITS - count.leading_zeros()
 }
 
-/// In how many digits so many bits of a number of pairs are sorted.
+/// Into how many digits to cut this many bits, for a number of pairs.
 fn passes(bits: u32, pairs: usize) -> u32 {
     let do_two_suffice = bits <= 2 * LONG_DIGIT && pairs >= 1 << bits.div_ceil(2);
     let mut passes = if do_two_suffice { 2 } else { bits.div_ceil(DIGIT) };
     let cost = |passes: u32| passes as usize * ((1 << bits.div_ceil(passes)) + A_PAIR * pairs);
-    // Few pairs cost less than all those counters.
+    // For few pairs, another pass may cost less than so many counters.
     while passes < bits && cost(passes + 1) < cost(passes) {
         passes += 1;
     }

@@ -1,4 +1,4 @@
-//! One column, swept sixteen boxes at a time.
+//! The sweep of one column, sixteen boxes at a time.
 
 use super::trial::note;
 use crate::columns::ColumnEntries;
@@ -10,7 +10,7 @@ use core::ops::Range;
 /// Boxes tested side by side.
 pub(crate) const LANES: usize = 16;
 
-/// Boxes of one column, least first along the sweep axis, as rows of codes.
+/// The boxes of one column as a structure of arrays: a strip for each of the six codes, ordered along the sweep axis.
 #[derive(Debug, Default)]
 pub(crate) struct Strips {
     strips: [Vec<i16>; 6],
@@ -18,23 +18,23 @@ pub(crate) struct Strips {
 
 asunder_geometry::copied!(Strips, { strips } but {});
 
-/// A box, and up to sixteen that it may overlap.
+/// A box, and which of the sixteen boxes from `first` on it may overlap.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hit {
     pub(crate) row: u32,
     pub(crate) first: u32,
-    /// What the codes say, as [`overlapping`] gives it.
+    /// The bits, as [`overlapping`] returns them.
     lanes: u32,
 }
 
 impl Hit {
-    /// The next box that may overlap the row's, whether codes cannot tell, and the hit without it.
+    /// The next box that may overlap the row's, whether codes leave it undecided, and the hit without that box.
     #[inline(always)]
     pub(crate) const fn next(self) -> (u32, bool, Self) {
         let bit = (self.lanes & MAY).trailing_zeros();
         let index = self.first + bit - (bit >> 4) * 8;
         let is_close = (self.lanes >> 8) >> bit & 1 != 0;
-        // The bits of the upper bytes tell of the lower ones, and stay.
+        // The bits of the upper bytes stay: they count only where the lower bytes have theirs.
         (index, is_close, Self { lanes: self.lanes & !(1 << bit), ..self })
     }
 
@@ -45,7 +45,7 @@ impl Hit {
     }
 }
 
-/// Hits that are gathered before they are looked at.
+/// Hits that are gathered before they are processed.
 pub(crate) const HITS: usize = 128;
 
 /// How far a sweep of a column has come.
@@ -66,7 +66,7 @@ impl Strips {
     pub(crate) fn fill(&mut self, entries: &[Entry]) {
         let count = entries.len();
         for (number, strip) in self.strips.iter_mut().enumerate() {
-            // Behind the last box stand boxes that overlap nothing: least codes above all, greatest below.
+            // Pads with boxes that overlap nothing: lower bounds above all codes, upper bounds below.
             let never = if number < 3 { i16::MAX } else { i16::MIN };
             strip.resize(count + LANES, never);
             strip[count..].fill(never);
@@ -87,7 +87,7 @@ impl Strips {
         }
     }
 
-    /// Goes on until all rows are swept or `hits` is full; returns how many hits there are, or none at the end.
+    /// Continues until all rows are swept or `hits` is full; returns the number of hits, 0 when done.
     #[inline(always)]
     pub(crate) fn sweep<W: Width>(
         &self,
@@ -123,13 +123,13 @@ impl Strips {
     }
 }
 
-/// Sixteen boxes that stand beside each other in their columns, all that is known of them in one place: who looks here
-/// and there, as movers do, finds four lines of memory side by side, where strips and entries have some fourteen.
+/// Codes and places of sixteen entries that follow each other in their column. The random access of movers then touches
+/// four adjacent cache lines, where strips and entries have some fourteen.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct Pack {
     codes: [[i16; LANES]; 6],
-    /// As the entries have them.
+    /// As in [`Entry`].
     places: [u32; LANES],
 }
 
@@ -138,7 +138,7 @@ impl Pack {
     pub(crate) fn fill(packs: &mut Vec<Self>, entries: &[Entry]) {
         packs.clear();
         packs.extend(entries.chunks(LANES).map(|entries| {
-            // Behind the last box stand boxes that overlap nothing.
+            // Pads with boxes that overlap nothing.
             let mut pack = Self { codes: [[i16::MIN; LANES]; 6], places: [0; LANES] };
             pack.codes[..3].fill([i16::MAX; LANES]);
             for (lane, entry) in entries.iter().enumerate() {
@@ -151,7 +151,8 @@ impl Pack {
         }));
     }
 
-    /// Hands over the places of entries in `range` that codes do not part from a box, and whether codes cannot tell.
+    /// Hands over the places of the entries in `range` that a box may overlap by its codes, and whether codes leave it
+    /// undecided.
     #[inline(always)]
     pub(crate) fn meet<W: Width>(
         packs: &[Self],
@@ -203,8 +204,8 @@ const BITS: [i16; LANES] = {
     bits
 };
 
-/// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes
-/// that may overlap, the upper byte those of them of which codes cannot tell.
+/// Which of sixteen boxes one overlaps, as far as codes can tell: in every 16 bits the lower byte has the lanes that
+/// may overlap, the upper byte those of them that codes leave undecided.
 #[inline(always)]
 fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u32 {
     let mut gaps = [0; LANES];
@@ -215,8 +216,8 @@ fn overlapping<W: Width>(width: W, one: &Codes, others: [&[i16; LANES]; 6]) -> u
     width.mask(&gaps)
 }
 
-/// The mask of a hit from gaps between codes: below zero two boxes overlap, above zero they do not, and at zero
-/// codes cannot tell.
+/// The mask of a hit from the gaps between codes: below zero the boxes overlap, above zero they do not, and at zero
+/// codes leave it undecided.
 #[inline(always)]
 pub(super) fn gaps_to_mask(gaps: &[i16; LANES]) -> u32 {
     let [mut may, mut close] = [0; 2];
@@ -234,7 +235,7 @@ mod tests {
     use super::*;
     use crate::width::Portable;
 
-    /// Sixteen boxes whose codes are few and extreme, so that all kinds of meetings come up.
+    /// Sixteen boxes with few and extreme codes, so that all cases of overlap come up.
     fn boxes(seed: &mut u32) -> ([Codes; LANES], [[i16; LANES]; 6]) {
         const CODES: [i16; 8] = [i16::MIN, -32_767, -32_766, -1, 0, 1, 32_766, 32_767];
         let mut code = || {
@@ -255,7 +256,7 @@ mod tests {
         (boxes, strips)
     }
 
-    /// What the lanes must say, from the definition, box by box.
+    /// The expected result of the lanes, from the definition, box by box.
     fn expected(one: &Codes, others: &[Codes; LANES]) -> Vec<(u32, bool)> {
         let verdict = |other: &Codes| {
             let gap = |axis: usize| {

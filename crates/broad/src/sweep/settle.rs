@@ -1,4 +1,4 @@
-//! Hits to pairs: whose they are, and where codes cannot tell.
+//! From hits to pairs: applies the owner rule, and tests the boxes where codes leave it undecided.
 
 use super::rows::{HITS, Hit, LANES};
 use super::segments::{Item, Segments, Slab, axes_from};
@@ -9,17 +9,16 @@ use crate::pair::PairId;
 use asunder_geometry::Bounds;
 use core::ops::ControlFlow;
 
-/// Most pairs of one load of hits.
+/// Most pairs in one buffer of hits.
 const PAIRS: usize = HITS * LANES;
 
-/// Room for the pairs of one load of hits.
+/// Room for the pairs of one buffer of hits.
 pub(super) type Pairs = [PairId; PAIRS];
 
 /// No pair yet.
 pub(super) const NO_PAIRS: Pairs = [PairId { a: 0, b: 0 }; PAIRS];
 
-/// What the boxes of a column are called outside: places in a column that was itself swept in columns, and so on
-/// outwards.
+/// Maps the boxes of nested columns to places in the column around them, and so on outwards.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Names<'a> {
     /// The entries' places in the column around.
@@ -27,7 +26,7 @@ pub(super) struct Names<'a> {
     pub(super) outer: Option<&'a Names<'a>>,
 }
 
-/// The place of a box in what is swept, by its place in a column of columns.
+/// The place of a box in the caller's list, from its place in nested columns.
 pub(super) fn outermost(place: u32, names: Option<&Names<'_>>) -> u32 {
     let mut place = place;
     let mut around = names;
@@ -38,7 +37,7 @@ pub(super) fn outermost(place: u32, names: Option<&Names<'_>>) -> u32 {
     place
 }
 
-/// What two boxes of a column are called in the end, and whether all columns around own the pair.
+/// The outermost places of two boxes of a column, and whether all columns around own the pair.
 #[inline(always)]
 fn outside(mut one: u32, mut other: u32, names: Option<&Names<'_>>) -> (u32, u32, bool) {
     let (mut is_ours, mut around) = (true, names);
@@ -51,11 +50,11 @@ fn outside(mut one: u32, mut other: u32, names: Option<&Names<'_>>) -> (u32, u32
     (one, other, is_ours)
 }
 
-/// Where pairs go, many at a time, in memory that it may use: so who wants which of them costs kernels nothing, and
-/// none is compiled anew for whoever asks.
+/// Takes pairs, many at a time, in a slice that it may overwrite. As a trait object called for batches it costs the
+/// kernels next to nothing, and they need not be compiled anew for each caller.
 pub(super) type Sink<'s> = dyn FnMut(&mut [PairId]) -> ControlFlow<()> + 's;
 
-/// Which boxes are swept, and who is told.
+/// The boxes that are swept, and where their pairs go.
 pub(super) struct Question<'a, B> {
     pub(super) boxes: &'a [B],
     pub(super) sink: &'a mut Sink<'a>,
@@ -81,10 +80,10 @@ impl<B: Bounds> Question<'_, B> {
         (self.sink)(&mut pairs[..count.min(PAIRS)])
     }
 
-    /// Hits to pairs that this column owns; returns how many.
+    /// Turns hits into the pairs that this column owns; returns how many.
     ///
-    /// One box of every hit at a time, and the hits that have more once again: a loop over the boxes of each hit
-    /// would end where the processor does not expect it (2 ns per pair, Zen 4, 2026-11-21).
+    /// Takes one box of every hit in a round, and then the hits with boxes left in the next: the end of an inner loop
+    /// over the boxes of each hit would be mispredicted (2 ns per pair, Zen 4, 2026-11-21).
     #[inline(always)]
     fn settle<const NESTED: bool>(
         &self,
@@ -121,8 +120,8 @@ impl<B: Bounds> Question<'_, B> {
         count
     }
 
-    /// Hands over the pairs of some boxes by segments: the cost is bounded, however they lie. `name` says what two of
-    /// them are called outside, and whether the pair is asked for.
+    /// Hands over the pairs of some boxes by segments, at a bounded cost however they lie. `name` gives the outermost
+    /// places of two boxes, and whether the pair is wanted here.
     pub(super) fn ask_segments(
         &mut self,
         segments: &mut Segments,

@@ -1,4 +1,4 @@
-//! Both ways of a sweep, each forced where counts would choose the other.
+//! Tests of both ways of sweeping, each forced where counts would choose the other.
 
 use super::segments::{Item, Key, Segments, Slab, in_order};
 use super::trial::{Way, steps_of};
@@ -23,7 +23,7 @@ fn double_loop<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool) -> Vec<
         .collect()
 }
 
-/// The list of a sweep by segments, whole and in columns, is the expected one.
+/// Checks the lists of sweeps by segments, as a whole and within columns.
 fn check<B: Bounds>(
     sweep: &mut Sweep,
     boxes: &[B],
@@ -59,7 +59,7 @@ fn segments_have_the_pairs_of_the_plain_sweep_in_every_scene() {
     }
 }
 
-/// Coordinates that go wrong, few enough to be equal often.
+/// Problematic coordinates, few enough to be equal often.
 const NASTY: [f32; 16] = [
     f32::NAN,
     f32::NEG_INFINITY,
@@ -85,7 +85,7 @@ fn segments_take_nasty_boxes_as_the_definition_does() {
     for round in 0..200 {
         let skip = usize::from(round % 10 != 0);
         let mut corner = || Vec3::from_array([0; 3].map(|_| NASTY[skip + random.below(NASTY.len() - skip)]));
-        // More than are compared without a cut; every fourth stays inverted if it comes so.
+        // More than are compared without a cut; every fourth may stay inverted.
         let boxes: Vec<Aabb3> = (0..200)
             .map(|i| (i, corner(), corner()))
             .map(|(i, p, q)| if i % 4 == 0 { Aabb3::new(p, q) } else { Aabb3::new(p.min(q), p.max(q)) })
@@ -145,7 +145,7 @@ fn segments_ask_the_filter_once_and_keep_to_limits() {
     }
 }
 
-/// However space is cut, each pair is in one slab.
+/// However space is cut, each pair is in exactly one slab.
 #[test]
 fn slabs_have_all_pairs_once() {
     let mut boxes = HurtScene::Halves.boxes(1000, 4);
@@ -171,7 +171,7 @@ fn slabs_have_all_pairs_once() {
     }
 }
 
-/// Steps of a sweep after the first, a box.
+/// Steps and pairs of a sweep, per box.
 fn steps(scene: HurtScene, count: usize, way: Way) -> f64 {
     let boxes = scene.boxes(count, 1);
     let mut pairs = 0;
@@ -188,8 +188,9 @@ fn steps(scene: HurtScene, count: usize, way: Way) -> f64 {
     (steps + pairs) as f64 / count as f64
 }
 
-/// Whether the steps of a box are few, by the square of the logarithm of all boxes, and grow no faster from n to 4 n
-/// boxes where they are not very few (two fifths more are left for what falls to one side of a count or the other).
+/// Whether the steps per box are few in relation to the squared logarithm of the number of boxes, and, unless they are
+/// very few, grow no faster than that from n to 4 n boxes (with two fifths of slack for counts that fall on either side
+/// of a threshold).
 fn is_bounded(scene: HurtScene, count: usize, way: Way) -> bool {
     let share =
         [count, 4 * count].map(|count| steps(scene, count, way) / f64::from(count.ilog2() * count.ilog2()));
@@ -214,7 +215,7 @@ fn columns_alone_would_not_do_for_them() {
 /// Movers that reach very many boxes at rest are not looked up one by one.
 #[test]
 fn what_moves_among_boxes_that_hurt_costs_no_more_than_a_sweep_of_all() {
-    // Steps are counted a thread, and so many boxes are shared by all that there are.
+    // Steps are counted per thread, and so many boxes would be shared among all threads.
     #[cfg(feature = "parallel")]
     rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(check_what_moves);
     #[cfg(not(feature = "parallel"))]
@@ -227,7 +228,7 @@ fn check_what_moves() {
         let (mut coherent, mut pairs, mut expected) = (CoherentSweep::new(), Vec::new(), Vec::new());
         let moved: Vec<u32> = (0..20_000).step_by(6).collect();
         for frame in 0..4 {
-            // Each takes the place of another.
+            // Boxes swap places in pairs.
             moved.chunks_exact(2).for_each(|two| boxes.swap(two[0] as usize, two[1] as usize));
             let steps = steps_of(Way::ByCounts, || {
                 coherent.update(&boxes, &moved, |_, _| true, usize::MAX, &mut pairs).unwrap();

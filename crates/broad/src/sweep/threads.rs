@@ -1,17 +1,17 @@
-//! A sweep on many threads: the same list.
+//! A sweep on many threads, with the same list as on one.
 //!
 //! ```text
 //! lay out the grid                                       one thread
-//! cut the boxes into parts; sort each into columns       a thread a part
-//! cut the columns into groups of equal weight;
-//!   sweep each, its columns put together from the parts  threads take groups
-//!   and throw its pairs into ranges of the first number
-//!   (or, where columns are of no use, walk through a slab of
-//!   space by segments in place of a group)
-//! put each range together from the groups and sort it    threads take ranges
+//! cut the boxes into parts; sort each into columns       one part per thread
+//! cut the columns into groups of equal weight; gather    threads take groups
+//!   the columns of a group from all parts, sweep them,
+//!   and distribute the pairs into ranges of the first
+//!   number (where columns are of no use: walk through a
+//!   slab of space by segments in place of a group)
+//! gather each range from all groups, and sort it         threads take ranges
 //! ```
-//! Which part, group or range a thread works at changes nothing: the ranges follow each other in the list, and each
-//! is sorted.
+//! Which thread takes which part, group or range does not change the result: the list is the ranges one after the
+//! other, each sorted.
 
 use super::Admit;
 use super::crowd::{Crowd, may_be_crowded};
@@ -28,32 +28,32 @@ use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
-/// With fewer boxes a second thread costs about what it saves. Of 10,000 it saves a tenth to a third, of a whole frame
-/// with 8,000 a twenty-fifth (`compare -- broad --threads 2`; AMD EPYC, Zen 5, 2 virtual cores, 2026-11-25; see
-/// `blocks` among the benchmarks for how two threads are measured).
+/// With fewer boxes a second thread costs about what it saves. With 10,000 it saves a tenth to a third, in a whole
+/// frame with 8,000 a twenty-fifth (`compare -- broad --threads 2`; AMD EPYC, Zen 5, 2 virtual cores, 2026-11-25; how
+/// two threads are measured: see `blocks` among the benchmarks).
 pub(super) const MANY_BOXES: usize = 5_000;
 
-/// Fewest boxes for each thread that takes part, about.
+/// About the fewest boxes for each thread that takes part.
 const BOXES_EACH: usize = 2_500;
 
-/// Groups a thread, so that a crowded one does not hold up the rest.
+/// Groups per thread: more than one, so that a crowded group does not hold up the rest.
 const GROUPS: usize = 4;
 
-/// Ranges of pairs, at most.
+/// Most ranges of pairs.
 const RANGES: usize = 64;
 
-/// Bins in which first numbers are counted before they are cut into ranges.
+/// Bins of a histogram of first numbers, from which the ranges are cut.
 const BINS: usize = 1024;
 
-/// What the threads keep between sweeps.
+/// What is kept between sweeps on many threads.
 #[derive(Debug, Default)]
 pub(super) struct Team {
-    /// How the last sweep sorted the boxes, if it was a team's.
+    /// The grid of the last sweep, if that was on many threads.
     grid: Option<Grid>,
     parts: Vec<Columns>,
     groups: Vec<Group>,
     orders: Vec<Order>,
-    /// Where slabs end, if the boxes are swept in such.
+    /// Where slabs end, if the boxes are swept by segments.
     cuts: Vec<Key>,
 }
 
@@ -64,7 +64,7 @@ impl Clone for Team {
         copy
     }
 
-    /// What the last sweep left, if it was a team's; all else is memory.
+    /// Copies the columns of the last sweep, if that was on many threads; all else is scratch memory.
     fn clone_from(&mut self, source: &Self) {
         self.grid = source.grid;
         if source.grid.is_some() {
@@ -80,7 +80,7 @@ struct Group {
     scratch: Scratch,
     found: Vec<PairId>,
     counts: Vec<u32>,
-    /// The pairs again, range by range, and where each range ends.
+    /// The pairs distributed into ranges, and where each range ends.
     thrown: Vec<PairId>,
     ends: Vec<usize>,
 }
@@ -103,19 +103,19 @@ impl Team {
         Some((self.grid.as_ref()?, &self.parts))
     }
 
-    /// Puts the columns of all parts into one piece, and hands them over with their grid: they are another's then.
+    /// Merges the columns of all parts into one piece, and hands them over with their grid.
     pub(super) fn put_together(&mut self, into: &mut Columns) -> Option<Grid> {
         let grid = self.grid.take()?;
         into.gather_all(&self.parts, &grid);
         Some(grid)
     }
 
-    /// The last sweep was another's.
+    /// Notes that the last sweep was not on many threads.
     pub(super) fn forget(&mut self) {
         self.grid = None;
     }
 
-    /// All pairs, sorted, by as many threads of the current pool as are worth it.
+    /// Finds all pairs, sorted, on as many threads of the current pool as are worth it.
     pub(super) fn pairs<B: Bounds>(
         &mut self,
         boxes: &[B],
@@ -158,7 +158,7 @@ impl Team {
     }
 }
 
-/// All boxes into columns, a part of them a thread.
+/// Sorts all boxes into columns, one part per thread.
 fn sort<B: Bounds>(parts: &mut [Columns], boxes: &[B]) -> Grid {
     let each = boxes.len().div_ceil(parts.len().max(1));
     let places = |part: usize| (part * each).min(boxes.len())..((part + 1) * each).min(boxes.len());
@@ -199,7 +199,7 @@ impl<B: Bounds> Kernel for Count<'_, B> {
     }
 }
 
-/// The second half.
+/// The second half of sorting a part.
 struct Scatter<'a> {
     part: &'a mut Columns,
     grid: &'a Grid,
@@ -215,7 +215,7 @@ impl Kernel for Scatter<'_> {
     }
 }
 
-/// Cuts the columns into groups with about as many entries each.
+/// Cuts the columns into groups of about equally many entries.
 fn share_out(groups: &mut [Group], parts: &[Columns], grid: &Grid) {
     let entries: usize = parts.iter().map(Columns::len).sum();
     let count = groups.len();
@@ -230,7 +230,7 @@ fn share_out(groups: &mut [Group], parts: &[Columns], grid: &Grid) {
     }
 }
 
-/// Whether all columns are so full that the boxes are swept without them.
+/// Whether all columns are so full that a walk by segments is better.
 fn is_crowded(groups: &mut [Group], parts: &[Columns], boxes: usize, grid: &Grid) -> bool {
     let entries = parts.iter().map(Columns::len).sum();
     let count = |group: &mut Group| {
@@ -242,10 +242,10 @@ fn is_crowded(groups: &mut [Group], parts: &[Columns], boxes: usize, grid: &Grid
         && groups.par_iter_mut().map(count).reduce(Crowd::default, Crowd::with).is_worth_segments(boxes, grid)
 }
 
-/// Boxes of a sample, a slab.
+/// Boxes sampled per slab.
 const LOOKS: usize = 32;
 
-/// Where to cut space along an axis so that about as many boxes begin in every slab.
+/// Finds where to cut space along an axis so that about equally many boxes begin in every slab.
 fn cut_into_slabs<B: Bounds>(cuts: &mut Vec<Key>, boxes: &[B], (axis, slabs): (usize, usize)) {
     let looks = (slabs * LOOKS) as u64;
     let sample = (0..looks).map(|look| (look * boxes.len() as u64 / looks) as u32);
@@ -256,7 +256,7 @@ fn cut_into_slabs<B: Bounds>(cuts: &mut Vec<Key>, boxes: &[B], (axis, slabs): (u
     for slab in 1..slabs.min(count) {
         cuts[slab] = cuts[slab * count / slabs];
     }
-    // Slabs without end on both sides; where the sample is short, the last ones are empty.
+    // The outermost slabs are unbounded; where the sample is short, the last ones are empty.
     cuts.resize(slabs + 1, Slab::ALL.end);
     (cuts[0], cuts[slabs]) = (Slab::ALL.start, Slab::ALL.end);
 }
@@ -279,7 +279,7 @@ impl Group {
         };
         let range = columns.clone();
         let question = &mut Question { boxes, sink: &mut sink };
-        // Broken off only where there are too many pairs, which the total says.
+        // It only breaks off at too many pairs, which `total` shows.
         let _ = match slab {
             Some(slab) => question.ask_all(&mut scratch.segments, (grid.sweep, slab)),
             None => widest(Level::<_, false> { parts, grid, range, question, scratch, around: (None, 0) }),
@@ -291,7 +291,7 @@ impl Group {
         }
     }
 
-    /// Sorts the pairs by range.
+    /// Distributes the pairs into ranges.
     fn throw(&mut self, range_of: &[u8; BINS], ranges: usize, boxes: usize) {
         let Self { found, thrown, ends, counts, .. } = self;
         ends.clear();
@@ -321,7 +321,7 @@ fn bin_of(first: u32, boxes: usize) -> usize {
     (u64::from(first) * BINS as u64 / boxes.max(1) as u64) as usize
 }
 
-/// Which range each bin of first numbers falls in, and the pairs in each range: about as many in all.
+/// The range of each bin of first numbers, and the number of pairs in each range: about the same for all.
 fn ranges_of_first(groups: &[Group], ranges: usize, total: usize) -> ([u8; BINS], [usize; RANGES]) {
     let (mut range_of, mut sizes) = ([0; BINS], [0; RANGES]);
     let (mut range, mut before) = (0, 0);
@@ -337,7 +337,7 @@ fn ranges_of_first(groups: &[Group], ranges: usize, total: usize) -> ([u8; BINS]
     (range_of, sizes)
 }
 
-/// Pairs of all groups, on their way into one list.
+/// The pairs of all groups, about to be written into one list.
 struct Ordered<'a> {
     groups: &'a [Group],
     sizes: &'a [usize],
@@ -345,7 +345,7 @@ struct Ordered<'a> {
 }
 
 impl Ordered<'_> {
-    /// Writes some ranges: in halves, each on a thread.
+    /// Writes some ranges, by halves on several threads.
     fn write(&self, ranges: Range<usize>, pairs: &mut [PairId], orders: &mut [Order]) {
         match orders {
             [] => {}

@@ -1,4 +1,4 @@
-//! What tests ask of a sweep that no caller can: one way in place of that which counts choose, and what it compared.
+//! Hooks for tests: force one way of sweeping in place of the one that counts choose, and count the steps it took.
 
 #[cfg(test)]
 pub(crate) use counted::{note, steps_of, way};
@@ -9,7 +9,7 @@ pub(crate) use plain::{note, way};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(not(test), allow(dead_code))]
 pub(crate) enum Way {
-    /// As the counts say.
+    /// Whichever the counts choose.
     #[default]
     ByCounts,
     /// In columns, however long that takes.
@@ -47,12 +47,12 @@ mod counted {
         WAY.get()
     }
 
-    /// Adds steps: of which each takes some 2 ns.
+    /// Adds steps of some 2 ns each.
     pub(crate) fn note(steps: usize) {
         STEPS.set(STEPS.get() + steps);
     }
 
-    /// The steps of what is done on this thread, in that way.
+    /// The steps that `work` takes on this thread when swept in this way.
     pub(crate) fn steps_of(way: Way, work: impl FnOnce()) -> usize {
         WAY.set(way);
         STEPS.set(0);

@@ -1,11 +1,11 @@
-//! Sixteen gaps between boxes compared at once, portable and for AVX2: a bit mask of which are none.
+//! Compares sixteen gaps between boxes at once, portable and for AVX2, into a bit mask of those that are not positive.
 
 use super::rows::{LANES, gaps_to_mask};
 use crate::width::Portable;
 
-/// Sixteen gaps between boxes.
+/// How a width compares sixteen gaps.
 pub(crate) trait SixteenGaps {
-    /// Which of them are none, and which are zero: see [`gaps_to_mask`], which is the definition.
+    /// Which of them are not positive, and which are zero; [`gaps_to_mask`] is the definition.
     fn mask(self, gaps: &[i16; LANES]) -> u32;
 }
 
@@ -27,12 +27,12 @@ mod avx2 {
     impl SixteenGaps for Avx2 {
         #[inline(always)]
         fn mask(self, gaps: &[i16; LANES]) -> u32 {
-            // SAFETY: this value says that the processor has AVX2.
+            // SAFETY: this value proves that the processor has AVX2.
             unsafe { mask(gaps) }
         }
     }
 
-    /// Two comparisons, and the top bits of all lanes in one instruction; the loop over lanes takes twenty.
+    /// Two comparisons, then the top bits of all lanes in one instruction; the loop over lanes takes twenty.
     #[target_feature(enable = "avx2")]
     #[inline]
     fn mask(gaps: &[i16; LANES]) -> u32 {

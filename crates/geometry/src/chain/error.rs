@@ -1,8 +1,8 @@
-//! What can be wrong with the vertices of a chain.
+//! Errors of chains.
 
 use crate::tolerance::{MAX_CHAIN_VERTICES, MAX_RADIUS};
 
-/// Why vertices make no chain.
+/// Why vertices were rejected as a chain.
 ///
 /// ```
 /// use asunder_geometry::{Chain, ChainError, glam::Vec2};
@@ -24,7 +24,7 @@ pub enum ChainError {
         /// Index of the vertex, as it was given.
         index: usize,
     },
-    /// Fewer vertices than two, or of a closed chain three, those left out not counted.
+    /// Fewer vertices than two (three for a closed chain), dropped ones not counted.
     TooFew {
         /// How many there are.
         count: usize,
@@ -33,7 +33,7 @@ pub enum ChainError {
     },
     /// More than [`MAX_CHAIN_VERTICES`].
     TooMany {
-        /// No fewer were given than these.
+        /// At least this many were given.
         at_least: usize,
     },
 }

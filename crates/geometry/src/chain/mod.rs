@@ -1,4 +1,4 @@
-//! Polylines to stand on: the ground of a game seen from the side.
+//! Chains: polylines as ground, for games seen from the side.
 
 mod error;
 mod runs;
@@ -25,35 +25,35 @@ use tree::Tree;
 #[doc = include_str!("../../doc/chain.svg")]
 ///
 /// It is the set of its segments' points, without thickness and without an inside. Segment `i` leads from vertex `i` to
-/// the next. Overlap with it, its separation from other shapes (the least of its segments' own) and the nearest points
-/// are about that set and know no sides.
+/// the next. Overlap with it, its separation from other shapes (the least of its segments') and nearest points refer to
+/// that set, without sides.
 ///
 /// # Contacts without ghosts
 /// A body that slides over a chain meets a surface, and not a row of segments: where segments meet in a straight line
-/// or a hollow, no contact, no cast and no ray has a normal that no segment there has. The edge of a convex corner, or
-/// a loose end, is met as the corner that it is.
+/// or a hollow, every contact, cast and ray has the normal of a segment there. A convex corner or a loose end acts as a
+/// corner.
 ///
-/// Vertices that lie on one line up to the rounding of their coordinates make one straight [`Run`]: contact points name
-/// it by its first segment (`Feature::Edge`), and corners by their vertex (`Feature::Vertex`), so that names stay as a
-/// body slides.
+/// Vertices that lie on one line up to the rounding of their coordinates make one straight [`Run`]. Contact points
+/// identify it by its first segment (`Feature::Edge`), and corners by their vertex (`Feature::Vertex`), so that ids
+/// stay the same as a body slides.
 ///
 /// # Sides
-/// A chain has two sides, and pushes what touches it to the side that the centre of its bounding circle is on.
-/// [`one_sided`](Self::one_sided) leaves one, on the *right* of the way from vertex to vertex:
+/// A chain has two sides, and pushes a touching body to the side on which the centre of the body's bounding circle
+/// lies. [`one_sided`](Self::one_sided) leaves one side solid, on the *right* of the direction from vertex to vertex:
 ///
-/// - Contacts, casts and rays see a segment only from there, and motions pass through from behind.
-/// - What comes through has contacts, and is pushed out to the front, as soon as its centre is there. A cast or an
-///   impact with that straight run comes only once the two have been apart.
-/// - So a closed chain that winds counter-clockwise is solid, as a polygon is; and ground drawn from right to left
-///   looks up.
-/// - A chain that leads straight back along itself is there a wall of no width, with a tip.
+/// - Contacts, casts and rays meet a segment only from there; motions pass through from behind.
+/// - A body that comes through has contacts, and is pushed out to the front, as soon as its centre is there. Casts and
+///   impacts hit that straight run only once the two have been apart.
+/// - So a closed chain that winds counter-clockwise is solid from outside, like a polygon, and ground drawn from right
+///   to left faces up.
+/// - Where a chain leads straight back along itself, it is a wall of no width with a tip.
 ///
 /// # Costs and limits
 /// - A pair with a body costs what the segments near it cost, and the logarithm of their number.
-/// - A collider with this shape is fixed, whatever is said.
+/// - A collider with this shape is always fixed.
 /// - 16 to 17 bytes per vertex.
-/// - Thin ground lets fast bodies through unless they are bullets or cast: where something has an inside, a
-///   [`HalfPlane`](crate::HalfPlane) or compound stops them better.
+/// - Fast bodies pass through thin ground unless they are bullets or cast: for ground with an inside, a
+///   [`HalfPlane`](crate::HalfPlane) or a compound stops them better.
 ///
 /// ```
 /// use asunder_geometry::{Chain, glam::{DVec2, Vec2}};
@@ -85,8 +85,8 @@ struct Data {
 impl Chain {
     /// A polyline from its first vertex to its last, in metres.
     ///
-    /// A vertex less than 2e-6 m from the one before it is left out, and counted: see [`dropped`](Self::dropped).
-    /// Segments, and so the `part` of what is met, are numbered by the vertices that are left.
+    /// A vertex less than 2e-6 m from the one before it is dropped, and counted: see [`dropped`](Self::dropped).
+    /// Segments, and so the `part` in contacts and hits, are numbered by the vertices that are kept.
     ///
     /// # Errors
     /// A vertex that is not finite or more than 1e6 m from the origin; fewer than two, or more than
@@ -97,7 +97,7 @@ impl Chain {
 
     /// A polyline that leads from its last vertex back to its first, in metres.
     ///
-    /// The first vertex need not be repeated: a last one that is the same is left out, and counted.
+    /// The first vertex need not be repeated: a last one that equals it is dropped, and counted.
     ///
     /// # Errors
     /// As [`Chain::open`], and fewer than three vertices.
@@ -126,32 +126,32 @@ impl Chain {
         Ok(Self { data: Arc::new(data), is_one_sided: false })
     }
 
-    /// The same chain, seen only from its front: the right of the way from vertex to vertex. Shares the data.
+    /// The same chain, solid only from its front: the right of the direction from vertex to vertex. Shares the data.
     #[must_use]
     pub fn one_sided(mut self) -> Self {
         self.is_one_sided = true;
         self
     }
 
-    /// Whether contacts, casts and rays see its front alone.
+    /// Whether contacts, casts and rays meet only its front.
     #[inline]
     pub const fn is_one_sided(&self) -> bool {
         self.is_one_sided
     }
 
-    /// Whether the last vertex leads back to the first.
+    /// Whether a last segment leads back to the first vertex.
     #[inline]
     pub fn is_closed(&self) -> bool {
         self.data.is_closed
     }
 
-    /// The vertices, in metres, those left out not among them.
+    /// The vertices, in metres, without dropped ones.
     #[inline]
     pub fn vertices(&self) -> &[Vec2] {
         &self.data.vertices
     }
 
-    /// How many of the vertices given were left out, since they all but repeated the one before them.
+    /// How many of the given vertices were dropped because they nearly repeated the one before.
     #[inline]
     pub fn dropped(&self) -> usize {
         self.data.dropped
@@ -163,7 +163,7 @@ impl Chain {
         segment_count(self.data.vertices.len(), self.data.is_closed)
     }
 
-    /// A segment by its number: it leads from the vertex of that number to the next. Nothing beyond the last.
+    /// A segment by its number, from the vertex of that number to the next; `None` beyond the last.
     #[inline]
     pub fn segment(&self, segment: u32) -> Option<Segment2> {
         self.ends(segment).map(Segment2::between)
@@ -177,7 +177,7 @@ impl Chain {
         Some([first, *next?])
     }
 
-    /// The centre that the bounding radius is about: the middle of its box.
+    /// The centre of the bounding radius: the middle of its box.
     #[inline]
     pub fn center(&self) -> Vec2 {
         self.data.center
@@ -189,7 +189,7 @@ impl Chain {
         self.data.outer_radius
     }
 
-    /// Whether a local point, in metres, lies on a segment. Exact. Cost: the segments whose boxes hold it.
+    /// Whether a local point, in metres, lies on a segment. Exact. Cost: linear in the segments whose boxes contain it.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         let holds = |bounds: &Aabb2| {
@@ -210,7 +210,7 @@ impl Chain {
         around2(furthest.into_iter(), pose, f64::from(margin))
     }
 
-    /// The vertex furthest along a direction. Nothing for a direction that is not finite.
+    /// The vertex furthest along a direction; `None` for a direction that is not finite.
     pub(crate) fn furthest(&self, direction: DVec2) -> Option<DVec2> {
         let mut best: Option<(f64, DVec2)> = None;
         let reach = |bounds: &Aabb2| {
@@ -229,8 +229,8 @@ impl Chain {
         best.map(|(_, vertex)| vertex)
     }
 
-    /// Visits the segments whose boxes meet a box in the chain's own axes, in ascending order, until the visitor breaks
-    /// off. Cost: those segments, and the logarithm of all.
+    /// Visits the segments whose boxes overlap a box in the chain's own axes, in ascending order, until the visitor
+    /// breaks off. Cost: linear in those segments, logarithmic in all.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Chain, glam::Vec2};
@@ -246,8 +246,8 @@ impl Chain {
         self.visit_where(|other| bounds.overlaps(other), visit)
     }
 
-    /// The same for any question about boxes: where the answer is no, nothing in the box is visited. If it is yes for a
-    /// box, it must be yes for every box around that.
+    /// The same with any predicate on boxes: if it is false for a box, nothing in it is visited. If it is true for a
+    /// box, it must be true for every box around that.
     pub fn visit_where(
         &self,
         meets: impl FnMut(&Aabb2) -> bool,
@@ -256,11 +256,11 @@ impl Chain {
         self.data.tree.visit_where(&|segment| self.ends(segment), meets, visit)
     }
 
-    /// Visits segments where a bound on what a box holds is at most a limit, boxes of lesser bounds first. The visitor
-    /// returns the limit for the rest. Cost: for a nearest point about the logarithm of the number of segments.
+    /// Branch and bound: visits segments in boxes whose lower bound is at most a limit, those with lesser bounds first.
+    /// The visitor returns the limit for the rest. Cost: for a nearest point about the logarithm of the number of
+    /// segments.
     ///
-    /// The bound of a box must hold for all that is in it: no greater than what the visitor would find there. Where it
-    /// is NaN, the box is visited.
+    /// The bound of a box must not exceed what the visitor would find in it. If it is NaN, the box is visited.
     ///
     /// ```
     /// use asunder_geometry::{Chain, glam::Vec2};
@@ -278,18 +278,18 @@ impl Chain {
         self.data.tree.visit_nearest(&|segment| self.ends(segment), limit, bound, visit);
     }
 
-    /// An address that two chains have in common exactly when they share their data and have as many sides; only good
-    /// while both live. It differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two chains have in common exactly when they share their data and have as many sides; valid only
+    /// while both live. It differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
-        // Data is aligned to more than one byte.
+        // The address is even, since data are aligned to more than one byte.
         Arc::as_ptr(&self.data).addr() + usize::from(self.is_one_sided)
     }
 }
 
 impl PartialEq for Chain {
-    /// Whether both have the same vertices and sides: what was left out does not count.
+    /// Equal vertices and sides; dropped vertices do not count.
     fn eq(&self, other: &Self) -> bool {
         let alike = |a: &Data, b: &Data| (a.is_closed, &a.vertices) == (b.is_closed, &b.vertices);
         self.is_one_sided == other.is_one_sided
@@ -301,7 +301,7 @@ fn segment_count(vertices: usize, is_closed: bool) -> usize {
     if is_closed { vertices } else { vertices.saturating_sub(1) }
 }
 
-/// The vertices that are vertices, and how many others there were.
+/// The vertices without near repetitions, and how many were dropped.
 fn kept(given: &mut dyn Iterator<Item = Vec2>, is_closed: bool) -> Result<(Vec<Vec2>, usize), ChainError> {
     let mut vertices: Vec<Vec2> = Vec::with_capacity(given.size_hint().0.min(MAX_CHAIN_VERTICES));
     let mut dropped = 0;

@@ -1,14 +1,14 @@
-//! Straight runs: segments of one line, which rounding bent.
+//! Straight runs: segments that lie on one line up to rounding.
 //!
 //! ```text
-//! from the first vertex of a run, every later one lets through lines that pass it within its rounding: a wedge
-//! the wedges of all vertices between are cut to what they have in common
-//! the run goes on while the next vertex lies in that, and further on than the last
+//! from the first vertex of a run, the lines that pass a later vertex within its rounding form a wedge
+//! intersect the wedges of all vertices between
+//! continue the run while the next vertex lies in that wedge, and further on than the last
 //! ```
-//! Zhao and Saalfeld, "Linear-time sleeve-fitting polyline simplification algorithms" (1997). A line that was cut into
-//! segments has vertices beside it by as much as f32 rounds their coordinates. Of a segment a thousandth of its
-//! coordinates long, that turns the normal by 0.005 degrees, and of shorter ones by more: contacts must not follow it.
-//! Angles can not tell such bends from others; the rounding can.
+//! Zhao and Saalfeld, "Linear-time sleeve-fitting polyline simplification algorithms" (1997). If a line is cut into
+//! segments, its vertices are off the line by the f32 rounding of their coordinates. That turns the normal of a segment
+//! a thousandth of its coordinates long by 0.005 degrees, and of shorter ones by more, which contacts must ignore. A
+//! limit on angles cannot tell such bends from real ones; the size of the rounding can.
 
 use super::Chain;
 use super::segment_count;
@@ -16,7 +16,7 @@ use crate::segment::Segment2;
 use crate::tolerance::STRAIGHT;
 use glam::{DVec2, Vec2};
 
-/// Segments of a chain that lie on one line, up to the rounding of their vertices: for contacts, one segment.
+/// Segments of a chain that lie on one line up to the rounding of their vertices, and act as one segment in contacts.
 ///
 /// ```
 /// use asunder_geometry::{Chain, glam::Vec2};
@@ -39,19 +39,19 @@ pub struct Run {
 }
 
 impl Run {
-    /// Its first segment, along the chain: the run's name.
+    /// Its first segment along the chain, which identifies the run.
     #[inline]
     pub const fn first(&self) -> u32 {
         self.first
     }
 
-    /// The vertices that it leads from and to.
+    /// Its first and its last vertex.
     #[inline]
     pub const fn vertices(&self) -> [u32; 2] {
         self.vertices
     }
 
-    /// The furthest that any of its vertices may lie beside the line from its first to its last, in metres. Zero for a
+    /// The furthest that any of its vertices may lie off the line from its first to its last, in metres. Zero for a
     /// single segment.
     #[inline]
     pub const fn unevenness(&self) -> f64 {
@@ -60,15 +60,15 @@ impl Run {
 }
 
 impl Chain {
-    /// The straight run that a segment belongs to. Nothing beyond the last segment. Cost: the logarithm of the number
-    /// of runs.
+    /// The straight run that a segment belongs to; `None` beyond the last segment. Cost: logarithmic in the number of
+    /// runs.
     pub fn run_of(&self, segment: u32) -> Option<Run> {
         if segment as usize >= self.segment_count() {
             return None;
         }
         let runs = &self.data.runs;
         let after = runs.partition_point(|&first| first <= segment);
-        // Of a closed chain, the last run may go on at the beginning.
+        // In a closed chain, the last run may continue at the beginning.
         self.run_at(if after == 0 { runs.len() - 1 } else { after - 1 })
     }
 
@@ -113,7 +113,7 @@ impl Chain {
 /// First segments of all runs, ascending.
 pub(super) fn runs(vertices: &[Vec2], is_closed: bool) -> Vec<u32> {
     let segments = segment_count(vertices.len(), is_closed);
-    // Of a closed chain, a run that leads over its beginning is one: begin where one ends.
+    // In a closed chain, a run may continue past the beginning, so start where the first one ends.
     let start = if is_closed { run_from(vertices, 0, segments) % segments.max(1) } else { 0 };
     let mut runs = Vec::new();
     let (mut first, end) = (start, start + segments);
@@ -125,7 +125,7 @@ pub(super) fn runs(vertices: &[Vec2], is_closed: bool) -> Vec<u32> {
     runs
 }
 
-/// How many segments belong to the run that begins at a vertex, at most so many.
+/// The number of segments in the run that begins at a vertex, limited to `most`.
 fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
     let vertex = |i: usize| vertices.get((start + i) % vertices.len()).copied().unwrap_or_default();
     let from = vertex(0);
@@ -152,19 +152,19 @@ fn run_from(vertices: &[Vec2], start: usize, most: usize) -> usize {
     most
 }
 
-/// How far beside a line through two points a vertex between them may lie: what all coordinates round to.
+/// How far a vertex between two points may lie off their line, given the rounding of all coordinates.
 fn corridor(ends: [Vec2; 2], along: DVec2) -> f64 {
     let normal = along.perp().abs() / along.length().max(f64::MIN_POSITIVE);
     normal.dot(rounding(ends))
 }
 
-/// How far beside its place, on each axis, a vertex between two others may lie.
+/// The rounding of a vertex between two others on each axis.
 fn rounding([one, other]: [Vec2; 2]) -> DVec2 {
     one.abs().max(other.abs()).as_dvec2() * STRAIGHT
 }
 
-/// The rightmost and the leftmost direction to a box, by its middle and half extents; nothing from inside. A line
-/// passes the middle within its corridor, whichever way it leads, exactly where it meets the box.
+/// The rightmost and the leftmost direction from the origin to a box, given by its middle and half extents; `None` from
+/// inside. A line passes the middle within its corridor, whatever its direction, exactly if it meets the box.
 fn seen_around(middle: DVec2, half: DVec2) -> Option<[DVec2; 2]> {
     if middle.abs().cmple(half).all() {
         return None;

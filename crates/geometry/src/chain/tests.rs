@@ -138,7 +138,7 @@ fn a_line_that_was_cut_is_one_run_at_any_angle_and_distance() {
 
 #[test]
 fn no_vertex_lies_further_beside_its_run_than_is_told() {
-    // Rounded along the line by as much as the bump is long: the bump is none of the rounding across it.
+    // Rounding along the line is as large as the bump is long, but the bump is more than the rounding across the line.
     let bump = Chain::open([(1000.0, 0.0), (999.999_9, 1e-4), (900.0, 0.0)].map(Vec2::from)).unwrap();
     assert_eq!(names(&bump), [0, 1]);
     for i in 0..20_000 {
@@ -169,7 +169,7 @@ fn bends_end_a_run_and_the_seam_of_a_closed_chain_does_not() {
     assert_eq!(names(&Chain::open(bent(1e-4)).unwrap()), [0, 2]);
     assert_eq!(names(&Chain::open(bent(-1e-4)).unwrap()), [0, 2]);
     assert_eq!(names(&Chain::open(bent(0.0)).unwrap()), [0]);
-    // There and back again.
+    // There and back.
     assert_eq!(names(&Chain::open([Vec2::ZERO, Vec2::X, Vec2::X * 0.5]).unwrap()), [0, 1]);
     let square = [(1.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0), (0.5, 0.0)];
     let square = Chain::closed(square.map(|(x, y)| Vec2::new(x, y))).unwrap();

@@ -1,8 +1,8 @@
-//! Boxes around segments that follow one another, each around two of the level below: where in a chain something is.
+//! A binary BVH over the segments of a chain, in their order along it.
 //!
-//! Segments that follow one another lie side by side, so that no sorting is needed: the order along the chain is the
-//! tree, and a node's number says which segments are in it. Four segments share a lowest box, which makes all boxes
-//! together as large as the vertices.
+//! Consecutive segments are neighbours in space, so no sorting is needed: the tree follows the order along the chain,
+//! and a node's number implies which segments are in it. Four segments share a lowest box, so that all boxes together
+//! take as much memory as the vertices.
 
 use super::segment_count;
 use crate::aabb::{Aabb2, Bounds};
@@ -119,7 +119,7 @@ fn around([from, to]: [Vec2; 2]) -> Aabb2 {
     Aabb2::new(from.min(to), from.max(to))
 }
 
-/// Nodes still to be looked at, the next one last: at most one a level, and one more.
+/// A stack of nodes to visit, the next one last: at most one per level, and one more.
 struct Open<T> {
     nodes: [Option<T>; LEVELS],
     count: usize,

@@ -10,7 +10,7 @@ use crate::aabb::Aabb3;
 use crate::ground::tree::{Sides, Tree};
 use crate::tolerance::{MAX_PARTS, MAX_RADIUS};
 
-/// Why parts make no compound.
+/// Why parts were rejected as a compound.
 ///
 /// ```
 /// use asunder_geometry::{Compound3, CompoundError};
@@ -31,12 +31,12 @@ pub enum CompoundError {
         /// Index of the part.
         index: usize,
     },
-    /// A part has no end.
+    /// A part is unbounded.
     Unbounded {
         /// Index of the part.
         index: usize,
     },
-    /// A part is ground, which is no convex shape and never moves.
+    /// A part is ground, which is not convex and never moves.
     Ground {
         /// Index of the part.
         index: usize,
@@ -73,10 +73,10 @@ impl core::fmt::Display for CompoundError {
 
 impl core::error::Error for CompoundError {}
 
-/// Parts from which on the box around them is found by their tree; of fewer all are looked at.
+/// From this many parts on, they are looked up in their tree; of fewer all are tested.
 const MANY_PARTS: usize = 16;
 
-/// Where parts are, by their boxes.
+/// The tree of the parts, by their boxes.
 fn tree_of(boxes: &[Aabb3]) -> Tree {
     let sides = |number: u32| -> Sides {
         let Some(Aabb3 { min, max }) = boxes.get(number as usize) else { return [0.0; 6] };

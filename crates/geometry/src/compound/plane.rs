@@ -15,12 +15,13 @@ use std::sync::Arc;
 ///
 #[doc = include_str!("../../doc/compound2.svg")]
 ///
-/// It is the union of its parts, which may overlap; parts of one body never meet. Each pair of parts of two bodies that
-/// touch has a manifold of its own. The separation from another shape is the least of its parts'.
+/// It is the union of its parts, which may overlap; parts of one body do not collide with each other. Each pair of
+/// touching parts of two bodies has a manifold of its own. The separation from another shape is the least of its
+/// parts'.
 ///
-/// Cost of a pair: a bounding circle test for each pair of parts, and the cost of the parts that pass. Of 16 parts and
-/// more, which are looked up in a tree: the logarithm of their number for each part of the other, and the cost of what
-/// is near.
+/// Cost of a pair: a bounding circle test for each pair of parts, and the cost of the pairs that pass. With 16 parts or
+/// more, which are looked up in a tree: logarithmic in their number for each part of the other, and the cost of the
+/// parts nearby.
 ///
 /// ```
 /// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
@@ -40,7 +41,7 @@ pub struct Compound2 {
 
 struct Data2 {
     parts: Box<[Part2]>,
-    /// Their boxes, in the compound's axes; flat ones.
+    /// The boxes of the parts, flat, in the compound's axes.
     tree: Tree,
 }
 
@@ -72,7 +73,7 @@ impl Part2 {
         &self.pose
     }
 
-    /// What it is: convex and bounded.
+    /// The shape of the part, convex and bounded.
     #[inline]
     pub const fn shape(&self) -> &Shape2 {
         &self.shape
@@ -86,7 +87,7 @@ impl Part2 {
 }
 
 impl Compound2 {
-    /// A compound from its parts and where they are.
+    /// A compound from its parts and their poses.
     ///
     /// # Errors
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
@@ -131,23 +132,23 @@ impl Compound2 {
         Ok(Self { data: Arc::new(Data2 { parts, tree }), center, outer_radius })
     }
 
-    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
-    /// differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two compounds have in common exactly when they share their parts; valid only while both live. It
+    /// differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
         Arc::as_ptr(&self.data).addr()
     }
 
-    /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.
+    /// The parts, in the order given; a manifold's `part_a` and `part_b` are indices of them.
     #[inline]
     pub fn parts(&self) -> &[Part2] {
         &self.data.parts
     }
 
-    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it
-    /// breaks off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in
-    /// those that are handed over.
+    /// Hands every part whose box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
+    /// off. The order depends only on the compound and the box. Cost: logarithmic in the parts, and linear in those
+    /// that are handed over.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
@@ -175,8 +176,8 @@ impl Compound2 {
     /// limit that `visitor` may lower: it returns the new one.
     ///
     /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened
-    /// by `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
-    /// [`visit_near`](Self::visit_near).
+    /// by `grown` metres, and by more than rounding, so that none is missed. If any number is not finite, nothing is
+    /// met. Cost: as [`visit_near`](Self::visit_near).
     ///
     /// ```
     /// use asunder_geometry::{Circle, Compound2, Pose2, Shape2, glam::DVec2};
@@ -225,7 +226,7 @@ impl Compound2 {
         }
     }
 
-    /// The centre that the bounding radius is about: the middle of its box.
+    /// The centre of the bounding radius: the middle of its box.
     #[inline]
     pub const fn center(&self) -> Vec2 {
         self.center
@@ -237,16 +238,16 @@ impl Compound2 {
         self.outer_radius
     }
 
-    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding circle holds it; of 16
-    /// parts and more the others are passed over in a tree.
+    /// Whether any part contains a local point, in metres. Cost: that of the same test for each part whose bounding
+    /// circle contains it; with 16 parts or more a tree skips the others.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         let reach = point.abs() + self.center.abs().as_dvec2();
         let rounding = 64.0 * f64::EPSILON * (reach.element_sum() + f64::from(self.outer_radius));
         let holds = |part: &Part2| {
-            // By more than rounding, and than a stored rotation may stretch it.
+            // Widened by more than rounding, and by more than a stored rotation may stretch it.
             let outer = f64::from(part.shape.outer_radius()) * (1.0 + 1e-6);
-            // Most parts do not come near, and need no turn; nor does what is no number.
+            // Most parts are not near, and need no rotation; NaN is never near.
             let is_near = (point - part.center).length_squared() <= outer * outer + rounding * rounding;
             is_near && part.shape.contains(part.pose.transform_back(point))
         };
@@ -263,14 +264,15 @@ impl Compound2 {
         found.is_break()
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices.
-    /// Cost: linear in the vertices of the parts that reach out furthest; of 16 parts and more the others are passed
-    /// over in a tree.
+    /// The box around the posed shape, by the vertices of all its parts, grown by `margin` metres and rounded outwards.
+    /// Cost: linear in the vertices of the parts that reach out furthest; with 16 parts or more a tree skips the
+    /// others.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         let box_of = |part: &Part2| {
             let core = part.shape.core();
             let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
-            // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
+            // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
+            // part back near the world's origin, where that rounding matters.
             let lost =
                 64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
             around2(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
@@ -281,8 +283,8 @@ impl Compound2 {
         }
         let (rotation, place) = (pose.rotation(), pose.position());
         let apart = DVec2::new(rotation.cos().into(), rotation.sin().into()).abs();
-        // More than a part's own box is wider by, and the tree's boxes lose here; and a rotation's length is not quite
-        // one, which shrinks them and no radius.
+        // More than the margins of a part's own box and the rounding of the tree's boxes here; and a rotation's length
+        // is not quite one, which shrinks the boxes but no radius.
         let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
         let lengths = place.abs().element_sum() + 8.0 * reach + f64::from(margin).abs();
         let lost = 512.0 * f64::EPSILON * lengths + reach * (1.0 - apart.length()).abs();
@@ -301,7 +303,7 @@ impl Compound2 {
         all
     }
 
-    /// A box that holds the posed shape, whatever its parts: around its bounding circle, and so no smaller than
+    /// A box that contains the posed shape, by its bounding circle alone, and so no smaller than
     /// [`bounds`](Self::bounds). Cost: constant.
     ///
     /// ```
@@ -313,8 +315,8 @@ impl Compound2 {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bounds_at_once(&self, pose: &Pose2) -> Aabb2 {
-        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in
-        // `bounds`.
+        // A rotation's length is one only up to the rounding of f32; and the rounding of parts' positions may matter,
+        // as in `bounds`.
         let reach = self.center.as_dvec2().length() + f64::from(self.outer_radius);
         let lost = 4.0 * f64::from(f32::EPSILON) * reach;
         around2(core::iter::once(self.center.as_dvec2()), pose, f64::from(self.outer_radius) + lost)
@@ -322,13 +324,13 @@ impl Compound2 {
 }
 
 impl PartialEq for Compound2 {
-    /// Parts and places alike, in the same order: all else follows.
+    /// Equal parts and poses in the same order; everything else follows from them.
     fn eq(&self, other: &Self) -> bool {
         self.parts() == other.parts()
     }
 }
 
-/// A box in the plane, as the tree sees it.
+/// A box in the plane as a flat box in space, for the tree.
 fn flat(bounds: &Aabb2) -> Aabb3 {
     Aabb3::new(bounds.min.extend(0.0), bounds.max.extend(0.0))
 }

@@ -15,12 +15,13 @@ use std::sync::Arc;
 ///
 #[doc = include_str!("../../doc/compound3.svg")]
 ///
-/// It is the union of its parts, which may overlap; parts of one body never meet. Each pair of parts of two bodies that
-/// touch has a manifold of its own. The separation from another shape is the least of its parts'.
+/// It is the union of its parts, which may overlap; parts of one body do not collide with each other. Each pair of
+/// touching parts of two bodies has a manifold of its own. The separation from another shape is the least of its
+/// parts'.
 ///
-/// Cost of a pair: a bounding sphere test for each pair of parts, and the cost of the parts that pass. Of 16 parts and
-/// more, which are looked up in a tree: the logarithm of their number for each part of the other, and the cost of what
-/// is near.
+/// Cost of a pair: a bounding sphere test for each pair of parts, and the cost of the pairs that pass. With 16 parts or
+/// more, which are looked up in a tree: logarithmic in their number for each part of the other, and the cost of the
+/// parts nearby.
 ///
 /// ```
 /// use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
@@ -40,7 +41,7 @@ pub struct Compound3 {
 
 struct Data3 {
     parts: Box<[Part3]>,
-    /// Their boxes, in the compound's axes.
+    /// The boxes of the parts, in the compound's axes.
     tree: Tree,
 }
 
@@ -72,7 +73,7 @@ impl Part3 {
         &self.pose
     }
 
-    /// What it is: convex and bounded.
+    /// The shape of the part, convex and bounded.
     #[inline]
     pub const fn shape(&self) -> &Shape3 {
         &self.shape
@@ -86,7 +87,7 @@ impl Part3 {
 }
 
 impl Compound3 {
-    /// A compound from its parts and where they are.
+    /// A compound from its parts and their poses.
     ///
     /// # Errors
     /// No parts, or more than [`MAX_PARTS`]; a part that is a compound, ground or unbounded, or that reaches beyond
@@ -129,23 +130,23 @@ impl Compound3 {
         Ok(Self { data: Arc::new(Data3 { parts, tree }), center, outer_radius })
     }
 
-    /// An address that two compounds have in common exactly when they share their parts; only good while both live. It
-    /// differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two compounds have in common exactly when they share their parts; valid only while both live. It
+    /// differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
         Arc::as_ptr(&self.data).addr()
     }
 
-    /// The parts, in the order given: a manifold's `part_a` and `part_b` count them.
+    /// The parts, in the order given; a manifold's `part_a` and `part_b` are indices of them.
     #[inline]
     pub fn parts(&self) -> &[Part3] {
         &self.data.parts
     }
 
-    /// Hands every part whose own box overlaps this one, in the compound's axes, to `visitor`, each once, until it
-    /// breaks off. The order is a function of the compound and the box. Cost: logarithmic in the parts, and linear in
-    /// those that are handed over.
+    /// Hands every part whose box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
+    /// off. The order depends only on the compound and the box. Cost: logarithmic in the parts, and linear in those
+    /// that are handed over.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -173,8 +174,8 @@ impl Compound3 {
     /// limit that `visitor` may lower: it returns the new one.
     ///
     /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened
-    /// by `grown` metres, and by more than rounding: none is lost. Nothing is met by what is not finite. Cost: as
-    /// [`visit_near`](Self::visit_near).
+    /// by `grown` metres, and by more than rounding, so that none is missed. If any number is not finite, nothing is
+    /// met. Cost: as [`visit_near`](Self::visit_near).
     ///
     /// ```
     /// use asunder_geometry::{Compound3, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
@@ -223,7 +224,7 @@ impl Compound3 {
         }
     }
 
-    /// The centre that the bounding radius is about: the middle of its box.
+    /// The centre of the bounding radius: the middle of its box.
     #[inline]
     pub const fn center(&self) -> Vec3 {
         self.center
@@ -235,16 +236,16 @@ impl Compound3 {
         self.outer_radius
     }
 
-    /// Whether any part holds a local point, in metres. Cost: that for each part whose bounding sphere holds it; of 16
-    /// parts and more the others are passed over in a tree.
+    /// Whether any part contains a local point, in metres. Cost: that of the same test for each part whose bounding
+    /// sphere contains it; with 16 parts or more a tree skips the others.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
         let reach = point.abs() + self.center.abs().as_dvec3();
         let rounding = 64.0 * f64::EPSILON * (reach.element_sum() + f64::from(self.outer_radius));
         let holds = |part: &Part3| {
-            // By more than rounding, and than a stored rotation may stretch it.
+            // Widened by more than rounding, and by more than a stored rotation may stretch it.
             let outer = f64::from(part.shape.outer_radius()) * (1.0 + 1e-6);
-            // Most parts do not come near, and need no turn; nor does what is no number.
+            // Most parts are not near, and need no rotation; NaN is never near.
             let is_near = (point - part.center).length_squared() <= outer * outer + rounding * rounding;
             is_near && part.shape.contains(part.pose.transform_back(point))
         };
@@ -261,14 +262,15 @@ impl Compound3 {
         found.is_break()
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: that of all its parts' vertices.
-    /// Cost: linear in the vertices of the parts that reach out furthest; of 16 parts and more the others are passed
-    /// over in a tree.
+    /// The box around the posed shape, by the vertices of all its parts, grown by `margin` metres and rounded outwards.
+    /// Cost: linear in the vertices of the parts that reach out furthest; with 16 parts or more a tree skips the
+    /// others.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let box_of = |part: &Part3| {
             let core = part.shape.core();
             let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
-            // A part far from the compound's origin may come back near it: what its place lost to rounding shows then.
+            // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
+            // part back near the world's origin, where that rounding matters.
             let lost =
                 64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
             around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
@@ -279,7 +281,7 @@ impl Compound3 {
         }
         let (basis, place) = (pose.basis(), pose.position());
         let apart = [basis.x.abs(), basis.y.abs(), basis.z.abs()];
-        // More than a part's own box is wider by, and the tree's boxes lose here.
+        // More than the margins of a part's own box and the rounding of the tree's boxes here.
         let reach = self.center.as_dvec3().length() + f64::from(self.outer_radius);
         let lengths = place.abs().element_sum() + 8.0 * reach + f64::from(margin).abs();
         let grow = f64::from(margin) + 512.0 * f64::EPSILON * lengths;
@@ -299,7 +301,7 @@ impl Compound3 {
         all
     }
 
-    /// A box that holds the posed shape, whatever its parts: around its bounding sphere, and so no smaller than
+    /// A box that contains the posed shape, by its bounding sphere alone, and so no smaller than
     /// [`bounds`](Self::bounds). Cost: constant.
     ///
     /// ```
@@ -311,8 +313,8 @@ impl Compound3 {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn bounds_at_once(&self, pose: &Pose3) -> Aabb3 {
-        // A rotation's length is one up to the rounding of f32; and what places of parts lost to rounding shows, as in
-        // `bounds`.
+        // A rotation's length is one only up to the rounding of f32; and the rounding of parts' positions may matter,
+        // as in `bounds`.
         let reach = self.center.as_dvec3().length() + f64::from(self.outer_radius);
         let lost = 4.0 * f64::from(f32::EPSILON) * reach;
         around3(core::iter::once(self.center.as_dvec3()), pose, f64::from(self.outer_radius) + lost)
@@ -320,7 +322,7 @@ impl Compound3 {
 }
 
 impl PartialEq for Compound3 {
-    /// Parts and places alike, in the same order: all else follows.
+    /// Equal parts and poses in the same order; everything else follows from them.
     fn eq(&self, other: &Self) -> bool {
         self.parts() == other.parts()
     }

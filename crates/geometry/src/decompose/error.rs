@@ -1,8 +1,8 @@
-//! Why an outline cannot be split.
+//! Errors of decomposition.
 
 use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 
-/// Why an outline was refused by [`decompose`](crate::decompose()). Edge `i` runs from vertex `i` to the next.
+/// Why an outline was rejected by [`decompose`](crate::decompose()). Edge `i` runs from vertex `i` to the next.
 ///
 /// ```
 /// use asunder_geometry::{DecomposeError, decompose, glam::Vec2};
@@ -34,13 +34,13 @@ pub enum DecomposeError {
         /// Index of the vertex.
         vertex: usize,
     },
-    /// No part has a bounding radius of [`MIN_RADIUS`].
+    /// No part has a bounding radius of [`MIN_RADIUS`] or more.
     TooSmall {
         /// The greatest of their bounding radii, in metres.
         radius: f32,
     },
-    /// A part with a bounding radius below [`MIN_RADIUS`] lies beside none that is larger: leaving it out would tear
-    /// off a piece.
+    /// A part with a bounding radius below [`MIN_RADIUS`] lies beside no larger one, so that leaving it out would lose
+    /// a piece.
     TooFine {
         /// Index of a vertex of the part.
         vertex: usize,
@@ -59,7 +59,7 @@ pub enum DecomposeError {
         /// Index of the later edge.
         second: usize,
     },
-    /// A vertex lies on an edge that it is no end of.
+    /// A vertex lies on an edge of which it is not an end.
     Touching {
         /// Index of the vertex.
         vertex: usize,
@@ -73,7 +73,7 @@ pub enum DecomposeError {
         /// Index of the later edge.
         second: usize,
     },
-    /// The triangles that were found do not make up the outline: a fault of ours, found by a check that is exact.
+    /// The triangulation is not that of the outline: a bug in this library, found by an exact check.
     Untriangulated {
         /// How many triangles were found.
         triangles: usize,

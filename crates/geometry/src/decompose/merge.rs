@@ -1,8 +1,8 @@
-//! Triangles joined to convex parts.
+//! Joins triangles into convex parts.
 //!
-//! Hertel and Mehlhorn, "Fast triangulation of simple polygons" (1983): a diagonal can go if both of its ends stay
-//! convex without it. One that cannot go never can later, since parts only grow: one pass is enough. At most two
-//! diagonals stay for each vertex where the outline turns inwards, which is where the factor of four comes from.
+//! Hertel and Mehlhorn, "Fast triangulation of simple polygons" (1983): a diagonal can be dropped if both of its ends
+//! stay convex without it. If that is impossible once, it stays so, since parts only grow: one pass is enough. At most
+//! two diagonals remain for each reflex vertex of the outline, which gives the factor of four.
 
 use super::triangulate::Half;
 use crate::polygon::predicate::orientation;
@@ -17,7 +17,7 @@ pub(super) struct Part {
     pub(super) neighbours: Vec<usize>,
 }
 
-/// Joins triangles over their diagonals, the longest first, and returns the parts sorted by their vertices.
+/// Joins triangles across their diagonals, the longest first, and returns the parts sorted by their vertices.
 pub(super) fn merged(points: &[Vec2], mut halves: Vec<Half>) -> Vec<Part> {
     let mut diagonals: Vec<(f64, usize, usize)> = Vec::new();
     for (index, half) in halves.iter().enumerate() {
@@ -26,7 +26,7 @@ pub(super) fn merged(points: &[Vec2], mut halves: Vec<Half>) -> Vec<Part> {
             diagonals.push((length, index, twin));
         }
     }
-    // Long diagonals bound slivers. Ties go to the lower triangle, so that the answer is one.
+    // Long diagonals bound slivers. Ties go to the lower triangle, so that the result is unique.
     diagonals.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut is_side = vec![true; halves.len()];
     for (_, one, other) in diagonals {
@@ -47,14 +47,14 @@ fn stays_convex(points: &[Vec2], halves: &[Half], half: usize, twin: usize) -> b
     orientation(points[before], points[halves[half].from], points[after]) >= 0.0
 }
 
-/// Leads the sides around the start of a half past it.
+/// Links the sides around the start of a half past it.
 fn unlink(halves: &mut [Half], half: usize, twin: usize) {
     let (before, after) = (halves[half].before, halves[twin].next);
     halves[before].next = after;
     halves[after].before = before;
 }
 
-/// Reads the parts off the sides that are left.
+/// Reads the parts off the remaining sides.
 fn parts(halves: &[Half], mut is_open: Vec<bool>) -> Vec<Part> {
     let mut loops: Vec<Vec<usize>> = Vec::new();
     for start in 0..halves.len() {

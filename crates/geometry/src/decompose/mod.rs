@@ -1,10 +1,10 @@
-//! Concave outlines, split into convex parts.
+//! Splits concave outlines into convex parts.
 //!
 //! ```text
-//! refuse edges that meet elsewhere than at their common vertex   simple.rs
+//! reject edges that meet elsewhere than at their common vertex   simple.rs
 //! constrained Delaunay triangulation, checked exactly            triangulate.rs
 //! drop diagonals, longest first, while both ends stay convex     merge.rs
-//! what is left between diagonals is a part                       here
+//! the regions between the remaining diagonals are the parts      here
 //! ```
 
 use crate::compound::{Compound2, CompoundError};
@@ -26,16 +26,17 @@ mod triangulate;
 
 pub use error::DecomposeError;
 
-/// Splits a polygon that may be concave into convex ones, in metres. The outline may wind either way.
+/// Splits a polygon that may be concave into convex ones. The outline is in metres, and may wind either way.
 ///
-/// The parts' vertices are the outline's, bit for bit; their interiors are disjoint, and together they are the
-/// polygon that the outline encloses. At most 4096 vertices; vertices on a line with their neighbours are fine. There
-/// are never more than four times as many parts as the fewest there could be (Hertel and Mehlhorn, "Fast
-/// triangulation of simple polygons", 1983), and mostly a few more than the fewest. All parts have the identity for a
-/// pose. Every decision is an exact orientation test.
+/// The parts' vertices are the outline's, bit for bit; their interiors are disjoint, and their union is the polygon
+/// that the outline encloses. At most 4096 vertices; vertices on a line with their neighbours are fine. There are at
+/// most four times as many parts as the least possible number (Hertel and Mehlhorn, "Fast triangulation of simple
+/// polygons", 1983), and usually only a few more than that. The pose of every part is the identity. Every decision is
+/// an exact orientation test.
 ///
-/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is no shape. Beside a larger part
-/// it is left out, and all that is lost lies within 2e-6 m of what is kept; elsewhere the outline is refused.
+/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is not a valid shape. Beside a
+/// larger part it is left out, and everything lost lies within 2e-6 m of what is kept; elsewhere the outline is
+/// rejected.
 ///
 /// Cost: n log n in practice: 5 to 20 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
 ///
@@ -59,7 +60,7 @@ pub fn decompose(outline: &[Vec2]) -> Result<Compound2, DecomposeError> {
         return compound(outline, &[Part { vertices: ring, neighbours: Vec::new() }]);
     }
     let mut parts = merged(&points, triangulated(&points)?);
-    // Parts count in the ring; the caller counts in the outline.
+    // From numbers in the ring to numbers in the caller's outline.
     parts.iter_mut().flat_map(|part| &mut part.vertices).for_each(|vertex| *vertex = ring[*vertex]);
     compound(outline, &parts)
 }
@@ -85,7 +86,7 @@ fn check_vertices(outline: &[Vec2]) -> Result<(), DecomposeError> {
 
 /// The vertices of a simple outline, counter-clockwise, starting with number 0.
 fn counter_clockwise(outline: &[Vec2]) -> Vec<usize> {
-    // The outline turns at its least vertex as it winds: all of it lies on one side.
+    // The turn at the least vertex shows how the outline winds, as all of it lies on one side.
     let turn = corners(outline)
         .min_by(|[_, a, _], [_, b, _]| order(*a, *b))
         .map_or(0.0, |[before, least, after]| orientation(before, least, after));
@@ -96,7 +97,7 @@ fn counter_clockwise(outline: &[Vec2]) -> Vec<usize> {
     ring
 }
 
-/// Makes shapes of the parts, and leaves out those that are too small for one.
+/// Makes shapes of the parts, without those that are too small.
 fn compound(outline: &[Vec2], parts: &[Part]) -> Result<Compound2, DecomposeError> {
     let mut shapes: Vec<Option<Polygon>> = Vec::with_capacity(parts.len());
     let mut largest_refused = 0.0_f32;
@@ -120,7 +121,7 @@ fn compound(outline: &[Vec2], parts: &[Part]) -> Result<Compound2, DecomposeErro
     }
     let kept = shapes.iter().flatten().map(|polygon| (Pose2::IDENTITY, Shape2::Polygon(polygon.clone())));
     Compound2::new(kept).map_err(|error| {
-        // Only size can be wrong with it: there is a part, at most one for each vertex, and none is a compound.
+        // Only a part's size can be wrong: there is a part, at most one for each vertex, and none is a compound.
         let index = if let CompoundError::TooLarge { index } = error { index } else { 0 };
         let kept = parts.iter().zip(&shapes).filter(|(_, shape)| shape.is_some());
         DecomposeError::TooLarge { vertex: kept.map(|(part, _)| part.vertices[0]).nth(index).unwrap_or(0) }

@@ -1,22 +1,22 @@
-//! Whether an outline is simple: its edges meet where one ends and the next begins, and nowhere else.
+//! Checks that an outline is simple: edges meet only where one ends and the next begins.
 //!
 //! ```text
-//! for each vertex, from left to right, from below where two are above each other:
+//! for each vertex, from left to right, and from below if two have the same x:
 //!     in the list of edges that the sweep line crosses, from below, find those through the vertex
-//!     any that does not end there: the vertex lies on an edge
-//!     in their place, put the edges that begin there
-//!     compare the pairs that have become neighbours in the list
+//!     if any of these does not end there, the vertex lies on an edge
+//!     replace them by the edges that begin there
+//!     test the pairs that have become neighbours in the list
 //! ```
 //!
-//! Shamos and Hoey, "Geometric intersection problems" (1976). Edges that meet are neighbours in the list before the
-//! sweep line comes to where they meet, and the first such pair ends it: up to there the list is in order. All
-//! comparisons are of a vertex with an edge, and exact.
+//! Shamos and Hoey, "Geometric intersection problems" (1976). Edges that meet become neighbours in the list before the
+//! sweep line reaches the point where they meet, and the first such pair ends the sweep: up to there the list is in
+//! order. All comparisons are of a vertex with an edge, and exact.
 
 use super::error::DecomposeError;
 use crate::polygon::predicate::{is_before, order, orientation};
 use glam::Vec2;
 
-/// Refuses an outline whose edges meet elsewhere than at their common vertices. The vertices must be finite.
+/// Rejects an outline whose edges meet elsewhere than at their common vertices. The vertices must be finite.
 pub(super) fn check_simple(outline: &[Vec2]) -> Result<(), DecomposeError> {
     let count = outline.len();
     let mut by_place: Vec<usize> = (0..count).collect();
@@ -70,7 +70,7 @@ impl Edge {
     }
 }
 
-/// Refuses two edges that share more than the one vertex that neighbours have in common.
+/// Rejects two edges that share more than the common vertex of neighbours.
 fn check_pair(edges: &[Edge], one: usize, other: usize) -> Result<(), DecomposeError> {
     let (first, second) = (one.min(other), one.max(other));
     let (e, f) = (&edges[first], &edges[second]);
@@ -88,7 +88,7 @@ fn check_pair(edges: &[Edge], one: usize, other: usize) -> Result<(), DecomposeE
     if apart(e, f) || apart(f, e) {
         return Ok(());
     }
-    // They meet. Where an end of one is on the other's line, that is where.
+    // They meet: at an end of one that is on the other's line, if there is one.
     Err(if e.side(f.from) == 0.0 {
         touching(edges, second, first)
     } else if e.side(f.to) == 0.0 {
@@ -102,7 +102,7 @@ fn check_pair(edges: &[Edge], one: usize, other: usize) -> Result<(), DecomposeE
     })
 }
 
-/// A vertex on an edge, or more of one of the vertex's own edges.
+/// The error of a vertex on an edge, or of an overlap with one of the vertex's own edges.
 fn touching(edges: &[Edge], vertex: usize, edge: usize) -> DecomposeError {
     let own = [(vertex + edges.len() - 1) % edges.len(), vertex];
     let overlapping =
@@ -110,7 +110,7 @@ fn touching(edges: &[Edge], vertex: usize, edge: usize) -> DecomposeError {
     overlapping.unwrap_or(DecomposeError::Touching { vertex, edge })
 }
 
-/// Whether two edges lie on one line. They overlap then: both are in the list at once, or one ends within the other.
+/// The error of two edges on one line. These overlap, as both are in the list at once, or one ends within the other.
 fn overlap(edges: &[Edge], one: usize, other: usize) -> Option<DecomposeError> {
     let (e, f) = (&edges[one], &edges[other]);
     let on_one_line = e.side(f.from) == 0.0 && e.side(f.to) == 0.0;

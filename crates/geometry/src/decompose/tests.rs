@@ -1,4 +1,4 @@
-//! What an outline is refused for, and what its parts are.
+//! Tests of rejected outlines, and of the parts of others.
 
 use super::*;
 use crate::tolerance::MIN_RADIUS;
@@ -80,7 +80,7 @@ fn flat_vertices_of_concave_outlines_are_no_corners() {
     }
 }
 
-/// Coordinates below what spade takes as they are, and as large as an outline may be.
+/// Coordinates too small for spade without scaling, and as large as an outline may be.
 #[test]
 fn subnormal_and_large_coordinates_are_split_exactly() {
     let tiny = f32::from_bits(1);
@@ -120,7 +120,7 @@ fn a_part_below_the_least_radius_is_left_out_beside_a_larger_one() {
     assert!(radius > 0.0 && radius < MIN_RADIUS);
 }
 
-/// What the check of the triangulation is for: triangles that miss a piece, cover one twice or wind wrongly.
+/// The check of the triangulation rejects triangles that miss a piece, cover one twice or wind wrongly.
 #[test]
 fn triangles_that_are_not_the_outline_are_not_believed() {
     let square = outline(&[(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]);

@@ -1,8 +1,8 @@
-//! A simple polygon's constrained Delaunay triangulation, and the proof that it is the polygon.
+//! The constrained Delaunay triangulation of a simple polygon, with a proof that it covers the polygon.
 //!
-//! The triangulation is spade's. Whatever it answers is believed only if it passes a check of our own: triangles that
-//! all wind counter-clockwise, by an exact test, and whose sides all cancel but for the outline's, cover exactly what
-//! the outline winds around, once. So a fault there could be an error here, and never a wrong part.
+//! The triangulation is spade's. Its result must pass a check of our own: triangles that all wind counter-clockwise, by
+//! an exact test, and whose sides all cancel except the outline's, cover exactly what the outline winds around, once.
+//! So a bug there could cause an error here, but never a wrong part.
 
 use super::error::DecomposeError;
 use crate::polygon::predicate::orientation;
@@ -19,11 +19,11 @@ pub(super) struct Half {
     pub(super) next: usize,
     /// The one before it around its part.
     pub(super) before: usize,
-    /// The same side seen from the other part; none on the outline.
+    /// The same side of the other part; none on the outline.
     pub(super) twin: Option<usize>,
 }
 
-/// Triangles that are the polygon, three halves each in order. The outline must be simple and counter-clockwise.
+/// Triangles that make up the polygon, three halves each, in order. The outline must be simple and counter-clockwise.
 pub(super) fn triangulated(points: &[Vec2]) -> Result<Vec<Half>, DecomposeError> {
     let triangles = inner_triangles(points).unwrap_or_default();
     checked(points, &triangles).ok_or(DecomposeError::Untriangulated { triangles: triangles.len() })
@@ -31,11 +31,11 @@ pub(super) fn triangulated(points: &[Vec2]) -> Result<Vec<Half>, DecomposeError>
 
 /// Spade's triangles within the outline, each from its lowest vertex, sorted.
 ///
-/// Vertices go in one by one, each with the edge that leads to it: n log n in practice. Edges that go in after all
-/// vertices take 20 times as long where they are long and close together; and spade's bulk loading walks a hash set,
-/// whose order differs from run to run.
+/// Vertices are inserted one by one, each with the edge that leads to it: n log n in practice. Inserting edges after
+/// all vertices takes 20 times as long if they are long and close together; and spade's bulk loading iterates over a
+/// hash set, whose order differs from run to run.
 fn inner_triangles(points: &[Vec2]) -> Result<Vec<[usize; 3]>, InsertionError> {
-    // Spade refuses magnitudes below 2^-142. A power of two keeps every bit, and every sign of its predicates.
+    // Spade rejects magnitudes below 2^-142. A power of two keeps every bit, and the sign of every predicate.
     const SCALE: f64 = (1_u128 << 64) as f64;
     let mut mesh = ConstrainedDelaunayTriangulation::<Point2<f64>>::new();
     let mut handles: Vec<FixedVertexHandle> = Vec::with_capacity(points.len());
@@ -45,18 +45,18 @@ fn inner_triangles(points: &[Vec2]) -> Result<Vec<[usize; 3]>, InsertionError> {
             Some(&last) => mesh.insert_with_hint(place, last)?,
             None => mesh.insert(place)?,
         };
-        // The plain call panics where constraints cross; here none do.
+        // The plain call would panic if constraints crossed; here none do.
         handles.last().map(|&last| mesh.try_add_constraint(last, handle));
         handles.push(handle);
     }
     if let [first, .., last] = handles[..] {
         mesh.try_add_constraint(last, first);
     }
-    // Vertices are numbered as they went in.
+    // Vertices are numbered in the order of insertion.
     let mut triangles: Vec<[usize; 3]> = mesh
         .inner_faces()
         .map(|face| from_lowest(face.vertices().map(|vertex| vertex.fix().index())))
-        // Within the outline, and only there, a counter-clockwise triangle meets the vertices in the outline's order.
+        // Within the outline, and only there, a counter-clockwise triangle has its vertices in the outline's order.
         .filter(|[a, b, c]| a < b && b < c)
         .collect();
     triangles.sort_unstable();
@@ -73,7 +73,7 @@ fn from_lowest([a, b, c]: [usize; 3]) -> [usize; 3] {
     }
 }
 
-/// The triangles with their sides paired, if they are the polygon.
+/// The triangles with their sides paired, if they make up the polygon.
 pub(super) fn checked(points: &[Vec2], triangles: &[[usize; 3]]) -> Option<Vec<Half>> {
     let is_left = |&[a, b, c]: &[usize; 3]| orientation(points[a], points[b], points[c]) > 0.0;
     if triangles.is_empty() || !triangles.iter().all(is_left) {

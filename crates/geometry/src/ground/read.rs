@@ -1,9 +1,9 @@
-//! Triangles with what contacts read of them, several at a time.
+//! Reads the data of several triangles at a time that contacts need.
 //!
-//! What is known of a triangle lies in several tables, and what a body stands on is all over the memory of a large
-//! mesh: in one of a million triangles nearly every read waits. Read one triangle after the other, with much work
-//! between, each waits for itself. Read together, they wait together. Corners come with the boxes of a mesh's tree, and
-//! cost no read of their own.
+//! The data of a triangle are in several tables, and the triangles under a body are scattered over the memory of a
+//! large mesh: with a million triangles nearly every read is a cache miss. If triangles are read one by one, with much
+//! work in between, these misses add up; if they are read together, the misses overlap. Corners come with the boxes of
+//! a mesh's tree, and need no read.
 
 use super::{Ground, Prominent};
 use crate::aabb::Aabb3;
@@ -11,7 +11,7 @@ use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use glam::Vec3;
 
-/// A triangle of ground, read.
+/// A triangle of ground with its data.
 ///
 /// See [`Ground::read_near`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,12 +26,12 @@ pub struct NearTriangle {
     pub prominent: Prominent,
 }
 
-/// Triangles that are read at a time: most bodies are near fewer.
+/// Triangles that are read at a time; most bodies are near fewer.
 const AT_ONCE: usize = 12;
 
 impl Ground<'_> {
-    /// What [`visit_near`](Self::visit_near) visits, in the same order, with what is read of each most often. Cost: as
-    /// that, with fewer waits for memory: a tenth to a half of the time on large meshes.
+    /// Visits the same triangles as [`visit_near`](Self::visit_near), in the same order, with the data that are needed
+    /// most often. Cost: the same with fewer cache misses, a tenth to a half of the time on large meshes.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
@@ -56,8 +56,8 @@ impl Ground<'_> {
         self.read_near_if(bounds, |_| true, visitor)
     }
 
-    /// The same of those triangles alone whose corners are wanted: of others nothing else is read. Cost: as that, for
-    /// less.
+    /// Like [`read_near`](Self::read_near), but only for triangles whose corners are wanted; nothing else is read of
+    /// others, which costs less.
     ///
     /// ```
     /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
@@ -97,7 +97,7 @@ impl Ground<'_> {
         self.read_all(&batch, &mut visitor)
     }
 
-    /// As [`visit_near`](Self::visit_near), with corners.
+    /// Like [`visit_near`](Self::visit_near), with corners.
     #[inline]
     fn meet_near(
         self,
@@ -128,5 +128,5 @@ impl Ground<'_> {
     }
 }
 
-/// Triangles to be read together, with their corners.
+/// Triangles that are to be read together, with their corners.
 type Batch = ArrayVec<(u32, [Vec3; 3]), AT_ONCE>;

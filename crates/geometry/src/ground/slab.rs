@@ -1,23 +1,23 @@
-//! When a box that moves on a line meets boxes at rest.
+//! When a box that moves along a line meets boxes at rest.
 
 use crate::aabb::Aabb3;
 use glam::{DVec3, Vec3};
 
-/// A box that moves on a line, or a ray: what a field's columns, rows and heights are asked by.
+/// A box that moves along a line, or a ray, for slab tests against the columns, rows and heights of a field.
 ///
-/// In f64, and widened by more than it may round, so that no box is lost: a slab's time is right to a few units in
-/// the last place of the coordinates that went into it.
+/// In f64, and widened by more than its rounding, so that no box is missed: times are right to a few units in the last
+/// place of the coordinates that went into them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slab {
     from: DVec3,
     direction: DVec3,
-    /// One over each; without a meaning where that is zero.
+    /// One over each component of the direction; meaningless where that is zero.
     pace: DVec3,
     grown: DVec3,
 }
 
 impl Slab {
-    /// Nothing where a number is not finite, or a half extent negative.
+    /// `None` if a number is not finite or a half extent negative.
     pub(crate) fn new(from: DVec3, direction: DVec3, grown: Vec3) -> Option<Self> {
         let grown = grown.as_dvec3();
         let is_good = from.is_finite() && direction.is_finite() && grown.is_finite();
@@ -29,7 +29,8 @@ impl Slab {
         })
     }
 
-    /// When, of a stretch of time, the moving box is over an interval on an axis, not less; nothing where it never is.
+    /// The part of a time interval in which the moving box overlaps an interval on an axis, never too short; `None` if
+    /// it never does.
     #[inline(always)]
     pub(crate) fn over(
         &self,
@@ -43,7 +44,7 @@ impl Slab {
         let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
         let (low, high) = (low - grown - from - slack, high + grown - from + slack);
         if along == 0.0 {
-            // Standing still on this axis: inside all the time, or never.
+            // No motion on this axis: inside all the time, or never.
             return (low <= 0.0 && high >= 0.0).then_some([enter, leave]);
         }
         let (first, last) = if along > 0.0 { (low * pace, high * pace) } else { (high * pace, low * pace) };
@@ -53,11 +54,11 @@ impl Slab {
         (first <= last).then_some([first, last])
     }
 
-    /// Where the moving box is on an axis in a stretch of time, not less.
+    /// The interval on an axis that the moving box covers in a time interval, never too small.
     #[inline(always)]
     pub(crate) fn reach(&self, axis: usize, time: [f64; 2]) -> [f64; 2] {
         let (from, along, grown) = (self.from[axis], self.direction[axis], self.grown[axis]);
-        // Standing still, it is there for ever.
+        // Without motion, times may be infinite.
         let [start, end] = if along == 0.0 { [from; 2] } else { time.map(|time| from + along * time) };
         let (low, high) = if start < end { (start, end) } else { (end, start) };
         let slack = LOST * (low.abs() + high.abs() + from.abs() + grown);
@@ -65,10 +66,10 @@ impl Slab {
     }
 }
 
-/// More than a few roundings in a row can lose.
+/// More than the relative error of a few roundings in a row.
 const LOST: f64 = 8.0 * f64::EPSILON;
 
-/// The distance between two boxes, in metres, not above.
+/// The distance between two boxes, in metres, never too great.
 #[inline(always)]
 pub(crate) fn gap(one: &Aabb3, low: [f32; 3], high: [f32; 3]) -> f64 {
     let mut squares = 0.0;

@@ -1,4 +1,4 @@
-//! Ground against plain loops over all triangles.
+//! Tests of ground against plain loops over all triangles.
 
 mod fields;
 mod meshes;
@@ -17,7 +17,7 @@ fn mesh_of(given: &Named) -> TriMesh {
         .unwrap_or_else(|e| panic!("{}: {e}", given.name))
 }
 
-/// Each mesh as it is, and with one side, beside what plain loops say of it.
+/// Each mesh, two-sided and one-sided, with its reference by plain loops.
 fn all_by_sides(mut check: impl FnMut(&Named, &TriMesh, &Plain)) {
     for given in all() {
         let mesh = mesh_of(&given);
@@ -26,7 +26,7 @@ fn all_by_sides(mut check: impl FnMut(&Named, &TriMesh, &Plain)) {
     }
 }
 
-/// A generator with a short period and no ambition.
+/// A simple random generator with a short period.
 struct Dice(u64);
 
 impl Dice {
@@ -147,7 +147,7 @@ fn a_gently_curved_surface_does_not_become_one_patch() {
     let mut patches: Vec<u32> = (0..mesh.triangle_count()).map(|number| mesh.patch(number)).collect();
     patches.sort_unstable();
     patches.dedup();
-    // Slopes up to 64 bends, and 5 of them in a patch.
+    // Slopes of up to 64 bends, 5 of them in a patch.
     assert!((10..=64).contains(&patches.len()), "{}", patches.len());
 }
 

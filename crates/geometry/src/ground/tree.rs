@@ -1,28 +1,28 @@
-//! A tree of boxes that never change: what ground looks its triangles up in.
+//! A static BVH, in which ground looks up its triangles.
 //!
 //! ```text
-//! build    to split a part: full children first, of 8, 64, 512 ... boxes; the last takes what is left
-//!          halve by count, in such steps, along the axis on which centres lie furthest apart, until all are children
-//! overlap  test the eight boxes of a node at once; hand over boxes, put nodes on a stack
-//! order    test the eight boxes of a node at once; put all that pass on a stack, the nearest on top
-//! reach    to six sides, pass over all that reaches no further than what was found                            (outermost)
+//! build    split into full children of 8, 64, 512 ... boxes; the last one takes the rest:
+//!          halve by count, in multiples of a child, along the axis on which centres are spread widest
+//! overlap  test the eight boxes of a node at once; hand over boxes, push nodes on a stack
+//! order    test the eight boxes of a node at once; push all that pass on a stack, the nearest on top
+//! reach    to six sides, skip everything that reaches no further than what was found                       (outermost)
 //! ```
-//! A tree of boxes keeps their numbers in its last nodes. A tree of triangles has leaves there, with the corners of up
-//! to eight in rows, of which boxes are made when they are asked for: no more is read of what a ray meets, and 48
-//! instructions a leaf are less than to wait for memory twice, which was a third of a ray's time on a million
-//! triangles.
+//! A tree of boxes has their numbers in its lowest nodes. A tree of triangles has leaves instead, with the corners of
+//! up to eight triangles as a structure of arrays, from which boxes are computed on demand. So a ray needs no further
+//! reads, and 48 instructions per leaf cost less than a second cache miss, which took a third of a ray's time on a
+//! million triangles.
 //!
-//! Splits by count pack all nodes full, so that a box takes 32 bytes, a triangle 44, and no tree is deeper than its
-//! count says (Kamel and Faloutsos, "On packing R-trees", 1993). Wald, Benthin and Boulos, "Getting rid of packets"
-//! (2008), for nodes of eight; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
+//! Splits by count fill all nodes, so that a box takes 32 bytes, a triangle 44, and the depth follows from the count
+//! (Kamel and Faloutsos, "On packing R-trees", 1993). Wald, Benthin and Boulos, "Getting rid of packets" (2008), for
+//! nodes of eight; Ize, "Robust BVH ray traversal" (2013), for bounds that lose no box.
 //!
-//! Not the index of the broad phase: that one is built anew whenever bodies have moved, in half the time, and takes
-//! 60 bytes per box; and its order of distance is strict, which takes a heap.
+//! Why not the index of the broad phase: that is made to be rebuilt whenever bodies have moved, in half the time, takes
+//! 60 bytes per box, and its order of distance is strict, which takes a heap.
 //!
-//! Of a million triangles of rolling land, those near a box of 1 m are found in 120 ns and near one of 4 m in 800,
-//! anywhere; where it was asked about just before, in 80 and 170. parry3d's tree takes 1.6 times as long for either,
-//! and 1.5 to 1.8 times for a ray (AMD EPYC Zen 4, 2026-11-22, a busy machine).
-//! Tried: the same compiled for AVX2: 10 to 15 % faster, where memory is not what is waited for. Not worth unsafe code.
+//! Among a million triangles of rolling land, those near a box of 1 m are found in 120 ns and near one of 4 m in 800,
+//! anywhere; if the same place was queried just before, in 80 and 170. parry3d's tree takes 1.6 times as long for
+//! either, and 1.5 to 1.8 times for a ray (AMD EPYC Zen 4, 2026-11-22, a busy machine). Tried: compiling it for AVX2 as
+//! well: 10 to 15 % faster where it does not wait for memory. Not worth unsafe code.
 mod outermost;
 mod walk;
 
@@ -31,13 +31,13 @@ pub(crate) use walk::{Ask, Line, Near};
 
 use glam::Vec3;
 
-/// Least corner, then greatest.
+/// Minimum, then maximum.
 pub(crate) type Sides = [f32; 6];
 
 /// Boxes in a node.
 pub(crate) const WIDTH: usize = 8;
 
-/// A row of eight boxes for each side, least first, so that all eight are tested by the same instructions.
+/// A row of eight boxes for each side, minima first, so that all eight are tested by the same instructions.
 pub(crate) type Rows = [[f32; WIDTH]; 6];
 
 /// Up to eight boxes. Empty places hold NaN, and [`EMPTY`].
@@ -45,7 +45,7 @@ pub(crate) type Rows = [[f32; WIDTH]; 6];
 #[repr(C, align(32))]
 struct Node {
     sides: Rows,
-    /// What is in each box: a node, with [`IS_LEAF`] a leaf, or with [`IS_BOX`] a box.
+    /// What each box contains: a node, or with [`IS_LEAF`] a leaf, or with [`IS_BOX`] a box of the caller.
     slots: [u32; WIDTH],
 }
 
@@ -53,7 +53,7 @@ struct Node {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 struct Leaf {
-    /// A row for each coordinate of each corner: the first's three, the second's, the third's.
+    /// A row for each coordinate of each corner: x, y, z of the first, the second, the third.
     corners: [[f32; WIDTH]; 9],
     /// Their numbers.
     slots: [u32; WIDTH],
@@ -98,29 +98,29 @@ impl Leaf {
     }
 }
 
-/// Set in the slot of a box that is no node's; where there are leaves, in the place of a triangle in one.
+/// Set in the slot of a caller's box; in a tree with leaves, in the place of a triangle within these.
 const IS_BOX: u32 = 1 << 31;
 
 /// Set in the slot of a leaf.
 const IS_LEAF: u32 = 1 << 30;
 
-/// What no slot is.
+/// The slot of an empty place.
 const EMPTY: u32 = u32::MAX;
 
-/// Most nodes below one another: 8^11 boxes are more than there are numbers.
+/// Greatest depth: 8^11 boxes are more than there are numbers.
 const MOST_DEPTH: usize = 11;
 
-/// Boxes or triangles by their numbers, to be found by place.
+/// Boxes or triangles with numbers, to be found by position.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
-    /// Of triangles, what is at the ends of the tree.
+    /// The leaves of a tree of triangles.
     leaves: Vec<Leaf>,
-    /// As in a node's slots; [`EMPTY`] where there is nothing.
+    /// As in a node's slots; [`EMPTY`] in an empty tree.
     root: u32,
 }
 
-/// A box to be sorted.
+/// A box that is to be sorted.
 #[derive(Clone, Copy, Debug)]
 struct Item {
     /// Twice its centre.
@@ -129,12 +129,12 @@ struct Item {
 }
 
 impl Tree {
-    /// A tree of the boxes with these numbers, below 2^30. Boxes are finite.
+    /// A tree of the boxes with these numbers, which are below 2^30. Boxes must be finite.
     pub(crate) fn new(numbers: impl Iterator<Item = u32>, sides: impl Fn(u32) -> Sides) -> Self {
         Self::build(numbers, sides, None::<fn(u32) -> [Vec3; 3]>)
     }
 
-    /// A tree of triangles, below 2^30, that holds their corners. All are finite.
+    /// A tree of triangles, with numbers below 2^30, that holds their corners. All must be finite.
     pub(crate) fn of_triangles(
         numbers: impl Iterator<Item = u32>,
         corners: impl Fn(u32) -> [Vec3; 3],
@@ -219,7 +219,7 @@ impl<F: Fn(u32) -> Sides, G: Fn(u32) -> [Vec3; 3]> Builder<'_, F, G> {
         (number, around(&node.sides))
     }
 
-    /// Splits boxes into children of a number that is a power of eight, all of them full but the last.
+    /// Splits boxes into children of `child` boxes, a power of eight; all but the last are full.
     fn children(&mut self, items: &mut [Item], child: usize, add: &mut impl FnMut((u32, Sides))) {
         let count = items.len().div_ceil(child);
         if count > 1 {
@@ -236,8 +236,8 @@ impl<F: Fn(u32) -> Sides, G: Fn(u32) -> [Vec3; 3]> Builder<'_, F, G> {
     }
 }
 
-/// Puts that many with the least centres before all others, on the axis on which these lie furthest apart. Which
-/// ones is a function of the boxes: where centres are equal, numbers decide.
+/// Puts the `count` items with the least centres before all others, on the axis on which centres are spread widest. The
+/// choice depends only on the boxes: among equal centres, numbers decide.
 fn split(items: &mut [Item], count: usize) {
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for item in &*items {
@@ -256,7 +256,7 @@ fn split(items: &mut [Item], count: usize) {
 }
 
 fn around(rows: &Rows) -> Sides {
-    // A NaN is passed over.
+    // NaN is skipped.
     core::array::from_fn(|row| {
         let sides = rows[row].iter().copied();
         if row < 3 { sides.fold(f32::INFINITY, f32::min) } else { sides.fold(f32::NEG_INFINITY, f32::max) }

@@ -1,8 +1,8 @@
-//! What is worked out of a height field when it is made.
+//! Derives the data of a height field when it is made.
 //!
-//! A mark is two bytes per vertex. From the lowest bit, two each, seen from the front and from the back: the edge along
-//! x that starts at the vertex, the one along z, the diagonal of the cell that starts there, and the vertex itself.
-//! Then one each of the three edges, where it bends low.
+//! Each vertex has marks of two bytes. From the lowest bit, there are two bits each, seen from the front and from the
+//! back, for the edge along x that starts at the vertex, the one along z, the diagonal of the cell that starts there,
+//! and the vertex itself. Then follows one bit for each of the three edges, set if it has a low bend.
 
 use super::grid::{Cell, Grid};
 use super::walk::{BLOCK, cells_of};
@@ -21,7 +21,7 @@ pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
     };
     let [a, b, c, d, e, f] = around;
     let (low, high) = (Vec3::new(a, b, c), Vec3::new(d, e, f));
-    // Of two zeros with different signs, either may be the least: added to zero they are the same.
+    // The minimum of -0 and 0 may be either: adding zero makes them equal.
     let center = (low + high) * 0.5 + Vec3::ZERO;
     let reach = |corner: Vec3| (corner.as_dvec3() - center.as_dvec3()).length_squared();
     let outer = grid.vertices().map(reach).fold(0.0, f64::max).sqrt();
@@ -41,7 +41,7 @@ pub(super) fn build(grid: Grid) -> Result<Data, HeightFieldError> {
     Ok(Data { marks, patches, blocks, low, high, center, outer_radius, grid })
 }
 
-/// Which edges and corners of a triangle are marked.
+/// The marked edges and corners of a triangle.
 #[inline]
 pub(super) fn prominent(grid: &Grid, marks: &[u16], triangle: u32) -> Prominent {
     let Some(Cell { column, row }) = grid.cell_of(triangle).filter(|&cell| !grid.is_hole(cell)) else {
@@ -79,7 +79,7 @@ const DIAGONAL: usize = 4;
 const VERTEX: usize = 6;
 const LOW: usize = 8;
 
-/// Two bytes per vertex.
+/// Marks the edges and vertices of a field.
 struct Marks<'a> {
     grid: &'a Grid,
     normals: &'a [DVec3],
@@ -98,16 +98,16 @@ impl<'a> Marks<'a> {
         marks.marks
     }
 
-    /// Marks the edges of a vertex, and the vertices that these have.
+    /// Marks the three edges of a vertex, and their ends.
     fn mark(&mut self, cell: Cell) {
         let Cell { column, row } = cell;
         let near = self.grid.vertex_number(cell) as usize;
         let far = near + self.grid.cells[0] as usize + 1;
         let first = |cell: Cell| (!self.grid.is_hole(cell)).then(|| 2 * self.grid.number(cell));
         let here = first(cell);
-        // All three are edges of one triangle.
+        // All three edges belong to one triangle.
         let corners = here.map(|here| self.grid.corners(here).map(|corner| corner.as_dvec3()));
-        // Beyond the first row and column, where nothing is, numbers wrap to beyond the last.
+        // Before the first row and column, numbers wrap to far beyond the last, where there is no cell.
         let above = first(Cell { column, row: row.wrapping_sub(1) });
         let left = first(Cell { column: column.wrapping_sub(1), row });
         let second = |first: u32| first + 1;
@@ -127,14 +127,14 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// Whether there is ground on both sides of an edge, and it bends low.
+    /// Whether there is ground on both sides of an edge, with a low bend.
     fn is_low(&self, one: Option<u32>, other: Option<u32>) -> bool {
         one.zip(other)
             .is_some_and(|(one, other)| is_low([one, other].map(|number| self.normals[number as usize])))
     }
 
-    /// How an edge is seen between a triangle, with the way along its half-edge there, and another; of an edge that is
-    /// not there, not at all.
+    /// From which sides the edge between a triangle (given with the direction of its half-edge) and another one counts;
+    /// from none for an edge that does not exist.
     fn sight(&self, one: Option<(u32, DVec3)>, other: Option<u32>) -> Sight {
         match (one, other) {
             (None, None) => [false; 2],

@@ -1,8 +1,8 @@
-//! What can be wrong with a height field.
+//! Errors of height fields.
 
 use crate::tolerance::{MAX_FIELD_SIDE, MAX_RADIUS};
 
-/// Why heights make no ground.
+/// Why heights were rejected as a height field.
 ///
 /// ```
 /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
@@ -19,7 +19,7 @@ pub enum HeightFieldError {
         /// Rows, as given.
         rows: usize,
     },
-    /// Not one height for each place of the grid.
+    /// The number of heights is not columns times rows.
     Count {
         /// Columns, as given.
         columns: usize,
@@ -56,7 +56,7 @@ pub enum HeightFieldError {
         /// Row of the cell.
         row: usize,
     },
-    /// A hole where no cell is: there is one cell less than columns, and than rows.
+    /// A hole where there is no cell: cells are one fewer than columns, and than rows.
     NoSuchCell {
         /// Column of the hole.
         column: usize,

@@ -1,4 +1,4 @@
-//! Where the vertices, cells and triangles of a height field are.
+//! The geometry of a height field: where its vertices, cells and triangles are.
 
 use super::HeightFieldError;
 use crate::tolerance::{MAX_FIELD_SIDE, MAX_RADIUS};
@@ -6,18 +6,18 @@ use crate::triangle::Triangle3;
 use core::ops::Range;
 use glam::{Vec2, Vec3};
 
-/// What a height field is given by. Everything else is worked out.
+/// The data that define a height field, from which everything else is derived.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Grid {
     /// Cells along x and z.
     pub(super) cells: [u32; 2],
     pub(super) cell: Vec2,
     pub(super) heights: Vec<f32>,
-    /// A bit for each cell that is a hole; nothing, if there are none.
+    /// A bit for each cell, set for holes; empty if there are none.
     holes: Vec<u64>,
 }
 
-/// A cell, by its place.
+/// A cell, by column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Cell {
     pub(super) column: u32,
@@ -65,7 +65,7 @@ impl Grid {
         })
     }
 
-    /// Refuses cells whose triangles [`Triangle3`] would refuse.
+    /// Rejects cells whose triangles [`Triangle3`] would reject.
     fn check_cells(&self) -> Result<(), HeightFieldError> {
         let side = self.cell.as_dvec2();
         let (area, diagonal) = (side.x * side.y, side.length_squared());
@@ -73,8 +73,8 @@ impl Grid {
             let four = self.heights_of(cell).map(f64::from);
             let low = four.into_iter().fold(f64::INFINITY, f64::min);
             let drop = four.into_iter().fold(f64::NEG_INFINITY, f64::max) - low;
-            // No triangle's area is less than its shadow's, nor a side longer than this: nearly all pass here. The
-            // margin is far above what the rounding of coordinates does to either.
+            // A triangle's area is at least that of its projection, and its sides are at most this long. Nearly all
+            // cells pass here; the margin is far above the effect of rounded coordinates.
             if area > 2e-7 * (diagonal + drop * drop) && diagonal > 1e-10 {
                 continue;
             }
@@ -109,13 +109,13 @@ impl Grid {
         self.heights.capacity() * size_of::<f32>() + self.holes.capacity() * size_of::<u64>()
     }
 
-    /// Row by row.
+    /// All cells, row by row.
     pub(super) fn all_cells(&self) -> impl Iterator<Item = Cell> + Clone + use<> {
         let [columns, rows] = self.cells;
         (0..rows).flat_map(move |row| (0..columns).map(move |column| Cell { column, row }))
     }
 
-    /// Number of a cell that is there.
+    /// The number of a cell that exists.
     #[inline]
     pub(super) const fn number(&self, cell: Cell) -> u32 {
         cell.row * self.cells[0] + cell.column
@@ -133,7 +133,7 @@ impl Grid {
         (triangle < self.triangle_count()).then_some(cell)
     }
 
-    /// Whether there is no ground: also beyond the grid.
+    /// Whether there is no ground; true as well beyond the grid.
     #[inline]
     pub(super) fn is_hole(&self, cell: Cell) -> bool {
         let [columns, rows] = self.cells;
@@ -144,30 +144,30 @@ impl Grid {
         self.holes.get(number / 64).is_some_and(|bits| bits >> (number % 64) & 1 == 1)
     }
 
-    /// Whether there is such a triangle, and not a hole.
+    /// Whether a triangle exists and is not in a hole.
     #[inline]
     pub(super) fn has(&self, triangle: u32) -> bool {
         self.cell_of(triangle).is_some_and(|cell| !self.is_hole(cell))
     }
 
-    /// One coordinate of the vertices of a column or row.
+    /// The coordinate that the vertices of a column or row share.
     #[inline]
     pub(super) fn line(&self, axis: usize, number: u32) -> f32 {
         number as f32 * self.cell[axis]
     }
 
-    /// Number of the vertex at the near left of a cell, or of any vertex by its place.
+    /// The number of a vertex by column and row; of a cell, that of its first vertex.
     #[inline]
     pub(super) const fn vertex_number(&self, cell: Cell) -> u32 {
         cell.row * (self.cells[0] + 1) + cell.column
     }
 
-    /// All that are corners of ground.
+    /// All vertices that are corners of ground.
     pub(super) fn vertices(&self) -> impl Iterator<Item = Vec3> + '_ {
         let is_ground = |column: u32, row: u32| !self.is_hole(Cell { column, row });
         let at = move |column: u32, row: u32| {
             let number = self.vertex_number(Cell { column, row }) as usize;
-            // Before the first, numbers wrap to beyond the last, where nothing is.
+            // Before the first, numbers wrap to far beyond the last, where there is no cell.
             let (left, above) = (column.wrapping_sub(1), row.wrapping_sub(1));
             let is_kept = is_ground(column, row)
                 || is_ground(left, row)
@@ -184,7 +184,7 @@ impl Grid {
         Vec3::new(self.line(0, number % columns), height, self.line(1, number / columns))
     }
 
-    /// Heights at (c, r), (c + 1, r), (c, r + 1) and (c + 1, r + 1) of a cell that is there.
+    /// Heights at (c, r), (c + 1, r), (c, r + 1) and (c + 1, r + 1) of a cell that exists.
     #[inline]
     pub(super) fn heights_of(&self, cell: Cell) -> [f32; 4] {
         let near = self.vertex_number(cell) as usize;
@@ -207,7 +207,7 @@ impl Grid {
         if triangle.is_multiple_of(2) { first } else { second }
     }
 
-    /// The corners of both triangles of a cell that is there.
+    /// The corners of both triangles of a cell that exists.
     #[inline]
     pub(super) fn triangles_of(&self, cell: Cell) -> [[Vec3; 3]; 2] {
         let [a, b, c, d] = self.heights_of(cell);
@@ -217,7 +217,7 @@ impl Grid {
         [[Vec3::new(x, a, z), left, right], [right, left, Vec3::new(next_x, d, next_z)]]
     }
 
-    /// The triangle across an edge, and its edge there.
+    /// The triangle across an edge, and the number of the shared edge in it.
     #[inline]
     pub(super) fn neighbor(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
         let cell = self.cell_of(triangle).filter(|&cell| !self.is_hole(cell))?;
@@ -238,7 +238,8 @@ impl Grid {
     pub(super) fn reached(&self, axis: usize, low: f64, high: f64) -> Range<u32> {
         let (count, side) = (self.cells[axis], f64::from(self.cell[axis]));
         let line = |number: u32| f64::from(self.line(axis, number));
-        // Never one too late: a coordinate is off by less than a cell. Then on to the first, and past the last.
+        // The guess minus two is never too great, as a coordinate is off by less than a cell. From there, search
+        // linearly.
         let guess = |at: f64| (at / side).clamp(0.0, f64::from(count)) as u32;
         let mut start = guess(low).saturating_sub(2);
         while start < count && line(start + 1) < low {

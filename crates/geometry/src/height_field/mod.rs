@@ -22,8 +22,8 @@ use std::sync::Arc;
 #[doc = include_str!("../../doc/height_field.svg")]
 ///
 /// The vertex of column `c` and row `r` is at (c * cell.x, height, r * cell.y), rounded to f32: the first at (0,
-/// height, 0). A cell has four vertices and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in all
-/// cells: one rule, so that what is drawn can follow it. Fronts look up. Cells may be holes.
+/// height, 0). A cell has four vertices and two triangles, whose common edge runs from (c + 1, r) to (c, r + 1) in
+/// every cell, so that drawn terrain can match it. Fronts face up. Cells may be holes.
 ///
 /// ```text
 ///     (c, r) --- (c+1, r)   x ->    Cell number k = r * (columns - 1) + c
@@ -33,14 +33,14 @@ use std::sync::Arc;
 ///   (c, r+1) -- (c+1, r+1)
 /// ```
 ///
-/// It is what a [`TriMesh`](crate::TriMesh) of these triangles would be, in a tenth of the memory: a set of points
-/// without thickness, solid from both sides unless it is [`one_sided`](Self::one_sided). Bodies that carry it are
-/// always fixed. Bodies that are sunk deep may get other contacts from the one than from the other, since triangles are
-/// looked at in another order.
+/// It behaves like a [`TriMesh`](crate::TriMesh) of these triangles, in a tenth of the memory: a surface without
+/// thickness, solid from both sides unless it is [`one_sided`](Self::one_sided). Bodies with this shape are always
+/// fixed. Bodies that are sunk deep may get other contacts than from a mesh, since triangles are processed in another
+/// order.
 ///
 /// # Costs and limits
-/// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's
-/// origin. A cell takes about 16 bytes. What is near is found by its place.
+/// From 2 to [`MAX_FIELD_SIDE`](crate::tolerance::MAX_FIELD_SIDE) columns and rows, within 1e6 m of the shape's origin.
+/// A cell takes about 16 bytes. Triangles near a place are found through the grid.
 ///
 /// ```
 /// use asunder_geometry::{HeightField, glam::{Vec2, Vec3}};
@@ -58,11 +58,11 @@ pub struct HeightField {
 
 struct Data {
     grid: Grid,
-    /// Two bits for each edge that a vertex or its cell has, and two for the vertex: see [`build`].
+    /// Two bits for each edge that belongs to a vertex or its cell, and two for the vertex: see [`build`].
     marks: Vec<u16>,
-    /// The least number of each triangle's plane.
+    /// The patch of each triangle, by its least triangle number.
     patches: Vec<u32>,
-    /// Boxes around some cells each.
+    /// Boxes around blocks of cells.
     blocks: Tree,
     low: Vec3,
     high: Vec3,
@@ -71,12 +71,12 @@ struct Data {
 }
 
 impl HeightField {
-    /// A field from its heights, in metres, row by row, and how far apart they are: cell.x along x, cell.y along z.
-    /// Cost: a quarter to half a microsecond per cell, and 48 bytes more per cell while it is made.
+    /// A field from its heights, in metres, row by row, and their spacing: cell.x along x, cell.y along z. Cost: a
+    /// quarter to half a microsecond per cell, and 48 bytes more per cell while it is made.
     ///
     /// # Errors
-    /// Fewer than 2 columns or rows, or too many; another number of heights; what is not finite or out of range; cells
-    /// too steep for a normal.
+    /// Fewer than 2 columns or rows, or too many; a wrong number of heights; numbers that are not finite or out of
+    /// range; cells too steep for a normal.
     pub fn new(
         columns: usize,
         rows: usize,
@@ -132,8 +132,8 @@ impl HeightField {
         self.with_holes([(column, row)])
     }
 
-    /// The same field with other heights, in metres, row by row: holes stay, and so do cells and the solid side. For
-    /// craters, say: a field made anew would be built once more for its holes. Cost: that of a new field.
+    /// The same field with other heights, in metres, row by row; holes, cells and the solid side stay. For craters,
+    /// say: a field made with `new` and `with_holes` would be built twice. Cost: that of a new field.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
@@ -147,7 +147,8 @@ impl HeightField {
     /// ```
     ///
     /// # Errors
-    /// As of a new field: another number of heights; what is not finite or out of range; cells too steep for a normal.
+    /// As for a new field: a wrong number of heights; numbers that are not finite or out of range; cells too steep for
+    /// a normal.
     pub fn with_heights(self, heights: impl Into<Vec<f32>>) -> Result<Self, HeightFieldError> {
         let grid = self.data.grid.with_heights(heights.into())?;
         Ok(Self { data: Arc::new(build::build(grid)?), ..self })
@@ -159,33 +160,33 @@ impl HeightField {
         self.is_one_sided
     }
 
-    /// An address that two fields have in common exactly when they share their data; only good while both live. It
-    /// differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two fields have in common exactly when they share their data; valid only while both live. It
+    /// differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
         Arc::as_ptr(&self.data).addr()
     }
 
-    /// Heights along x. Cells are one less.
+    /// Number of heights along x, one more than cells.
     #[inline]
     pub fn columns(&self) -> usize {
         self.data.grid.cells[0] as usize + 1
     }
 
-    /// Heights along z. Cells are one less.
+    /// Number of heights along z, one more than cells.
     #[inline]
     pub fn rows(&self) -> usize {
         self.data.grid.cells[1] as usize + 1
     }
 
-    /// How far heights are apart along x and along z, in metres.
+    /// Spacing of heights along x and along z, in metres.
     #[inline]
     pub fn cell(&self) -> Vec2 {
         self.data.grid.cell
     }
 
-    /// All heights, in metres, row by row, also those at holes.
+    /// All heights, in metres, row by row, those at holes included.
     pub fn heights(&self) -> &[f32] {
         &self.data.grid.heights
     }
@@ -211,7 +212,7 @@ impl HeightField {
         Some((column as usize, row as usize))
     }
 
-    /// How high the ground is at a place, in metres and local axes, rounded to f32; nothing in holes and beyond the
+    /// The height of the ground at a place, in metres and local axes, rounded to f32; `None` in holes and beyond the
     /// field. Cost: constant.
     ///
     /// ```
@@ -228,7 +229,7 @@ impl HeightField {
         self.data.grid.height_at([x.into(), z.into()])
     }
 
-    /// Memory that is held, in bytes, by all that share it.
+    /// Memory that is held, in bytes; clones share it.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, glam::Vec2};
@@ -243,7 +244,7 @@ impl HeightField {
         size_of::<Data>() + data.grid.bytes() + marks + patches + data.blocks.bytes()
     }
 
-    /// The centre that the bounding radius is about: the middle of its box.
+    /// The centre of the bounding radius: the middle of its box.
     #[inline]
     pub fn center(&self) -> Vec3 {
         self.data.center
@@ -255,13 +256,13 @@ impl HeightField {
         self.data.outer_radius
     }
 
-    /// Whether any triangle holds a local point, in metres.
+    /// Whether any triangle contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         Ground::Field(self).holds(point.into())
     }
 
-    /// A box around the posed field, grown by `margin` metres and rounded outwards: around its own box, turned. Cost:
-    /// of eight corners.
+    /// A box around the posed field, grown by `margin` metres and rounded outwards. It is the box of the field's own
+    /// box, posed; the cost is that of eight corners.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         bounds_of([self.data.low, self.data.high], pose, margin)
     }
@@ -302,7 +303,7 @@ impl HeightField {
     }
 }
 
-/// Whether they have the same heights, cells and holes, and are solid from the same sides.
+/// Equal heights, cells and holes, solid from the same sides.
 impl PartialEq for HeightField {
     fn eq(&self, other: &Self) -> bool {
         let is_same = || self.data.grid == other.data.grid;

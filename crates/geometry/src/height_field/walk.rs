@@ -1,4 +1,4 @@
-//! Which triangles of a height field are near, or in the way.
+//! Finds the triangles of a height field that are near, or in the path of a cast.
 
 use super::HeightField;
 use super::grid::{Cell, Grid};
@@ -8,10 +8,10 @@ use crate::ground::tree::Ask;
 use arrayvec::ArrayVec;
 use core::ops::{ControlFlow, Range};
 
-/// Cells on a side of a block.
+/// Blocks of cells, with this many on a side.
 ///
-/// The tree of blocks takes 2 bytes per cell; smaller blocks take four times as much, and of larger ones more cells
-/// are looked at in vain.
+/// The tree of blocks takes 2 bytes per cell. Blocks of half the side would take four times as much; with larger ones
+/// more cells are tested in vain.
 pub(super) const BLOCK: Block = Block { side: 4 };
 
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Block {
 }
 
 impl Block {
-    /// Blocks along x.
+    /// Number of blocks along x.
     const fn columns(self, grid: &Grid) -> u32 {
         grid.cells[0].div_ceil(self.side)
     }
@@ -29,7 +29,7 @@ impl Block {
         self.columns(grid) * grid.cells[1].div_ceil(self.side)
     }
 
-    /// Columns and rows of a block's cells.
+    /// The columns and rows of a block.
     fn ranges(self, grid: &Grid, block: u32) -> [Range<u32>; 2] {
         let place = [block % self.columns(grid), block / self.columns(grid)];
         [0, 1].map(|axis| {
@@ -49,7 +49,7 @@ fn cells(columns: Range<u32>, rows: Range<u32>) -> impl Iterator<Item = Cell> + 
     rows.flat_map(move |row| columns.clone().map(move |column| Cell { column, row }))
 }
 
-/// Cells below a box up to which all are looked at; of more, blocks are asked first whether any is as high.
+/// Up to this many cells below a box are all tested; for more, the tree of blocks is queried first.
 const FEW: u32 = 64;
 
 impl HeightField {
@@ -75,9 +75,8 @@ impl HeightField {
         })
     }
 
-    /// Hands triangles that a moving box comes over to `visitor`, as
-    /// [`Ground::visit_along`](crate::Ground::visit_along) does, block by block as `line` has them in order; where few
-    /// cells are below its way, these at once.
+    /// Hands triangles that a moving box meets to `visitor`, as [`Ground::visit_along`](crate::Ground::visit_along)
+    /// does: block by block in the order of `line`, or at once if few cells are below the path.
     pub(crate) fn visit_along(
         &self,
         line: &impl Ask,
@@ -103,7 +102,7 @@ impl HeightField {
         });
     }
 
-    /// Hands triangles near a box to `visitor`, block by block, and the nearest of each first.
+    /// Hands triangles near a box to `visitor`, block by block, and within each the nearest first.
     pub(crate) fn visit_nearest(
         &self,
         (near, bounds): (&impl Ask, &Aabb3),
@@ -126,7 +125,7 @@ impl HeightField {
 /// Triangles of a block, each with its place in an order.
 type Found = ArrayVec<(f64, u32), { 2 * (BLOCK.side * BLOCK.side) as usize }>;
 
-/// Hands over triangles in order, up to a limit that `visitor` may lower; says what it is then.
+/// Hands over triangles in order, up to a limit that `visitor` may lower; returns the limit.
 fn hand_over(mut found: Found, mut limit: f64, visitor: &mut impl FnMut(u32) -> f64) -> f64 {
     found.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
     for (place, triangle) in found {
@@ -137,10 +136,10 @@ fn hand_over(mut found: Found, mut limit: f64, visitor: &mut impl FnMut(u32) -> 
     limit
 }
 
-/// How far a way goes at most, in cells, that leads over no more than a block's columns and rows.
+/// The greatest extent of a path, in cells, that reaches no more columns and rows than a block has.
 const FEW_CELLS: f64 = (BLOCK.side - 2) as f64;
 
-/// Something that moves on a line over cells.
+/// A box that moves along a line over cells.
 struct Way<'a, V> {
     grid: &'a Grid,
     slab: &'a Slab,
@@ -149,11 +148,11 @@ struct Way<'a, V> {
 }
 
 impl<V: FnMut(u32) -> f64> Way<'_, V> {
-    /// Hands over the triangles of some cells, of no more than a block's columns and rows, in the order in which it
-    /// comes to them.
+    /// Hands over the triangles of some cells, no more columns and rows than a block has, in the order in which it
+    /// meets them.
     ///
-    /// When it is over each column and each row says when it is over each cell. Where every triangle's box was asked,
-    /// rays on 128 x 128 cells took 1.5 to 1.8 times as long (Intel Xeon, family 6 model 106, 2026-11-27).
+    /// The time over a cell is the intersection of the times over its column and its row. Testing every triangle's box
+    /// took 1.5 to 1.8 times as long for rays on 128 x 128 cells (Intel Xeon, family 6 model 106, 2026-11-27).
     fn go_over(&mut self, [columns, rows]: [Range<u32>; 2]) {
         const SIDE: usize = BLOCK.side as usize;
         debug_assert!(columns.len() <= SIDE && rows.len() <= SIDE, "{columns:?}, {rows:?}");
@@ -191,7 +190,7 @@ fn common(one: &Range<u32>, other: &Range<u32>) -> Range<u32> {
 }
 
 impl Grid {
-    /// Least and greatest heights of a cell's two triangles. On the other axes both are as wide as the cell.
+    /// The least and greatest height of each of a cell's two triangles. On the other axes both are as wide as the cell.
     #[inline]
     fn spans(&self, cell: Cell) -> [[f32; 2]; 2] {
         let [a, b, c, d] = self.heights_of(cell);
@@ -200,7 +199,7 @@ impl Grid {
         [with(a), with(d)]
     }
 
-    /// Hands those triangles of a cell to `visitor` that are between two heights.
+    /// Hands those triangles of a cell to `visitor` that overlap a range of heights.
     #[inline]
     fn visit_cell(
         &self,
@@ -220,7 +219,7 @@ impl Grid {
         ControlFlow::Continue(())
     }
 
-    /// The triangles of a cell, with their least and greatest corners.
+    /// The triangles of a cell, with their boxes.
     #[inline]
     fn boxes(&self, cell: Cell) -> impl Iterator<Item = (u32, [[f32; 3]; 2])> + use<> {
         let [x, next_x] = [cell.column, cell.column + 1].map(|column| self.line(0, column));

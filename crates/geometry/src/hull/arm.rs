@@ -1,18 +1,18 @@
-//! How far the ball inside a hull may be moved and stays inside.
+//! How far the inscribed ball of a hull can be moved inside it.
 
 use super::HullData;
 use crate::tolerance::ARM_SHARE;
 use glam::{DVec3, Vec3};
 
-/// So many edges are tried, the longest first.
+/// How many edges are tried, the longest first.
 const TRIED: usize = 16;
 
 impl HullData {
     /// Half of the longest segment about the centre, along an edge, on which a ball of [`ARM_SHARE`] of the inner
-    /// radius stays inside the hull; zero where the hull has no such ball. What is long and thin holds many balls that
-    /// are all but as large as the one in its middle.
+    /// radius stays inside the hull; zero if there is no such ball. A long and thin hull contains many balls nearly as
+    /// large as the one in its middle.
     ///
-    /// Cost: linear in the faces, and what sorting the edges takes.
+    /// Cost: linear in the faces, and a sort of the edges.
     pub(super) fn longest_arm(&self) -> Vec3 {
         if self.inner_radius <= 0.0 || self.dimension < 3 {
             return Vec3::ZERO;
@@ -23,7 +23,7 @@ impl HullData {
             at(to) - at(from)
         };
         let mut edges: Vec<DVec3> = self.topology.edges().iter().map(along).collect();
-        // Edges as long as each other stay in their order.
+        // Stable: edges of equal length stay in their order.
         edges.sort_by(|one, other| other.length_squared().total_cmp(&one.length_squared()));
         let mut best = (0.0, DVec3::ZERO);
         for edge in edges.into_iter().take(TRIED) {
@@ -37,8 +37,8 @@ impl HullData {
         if self.has_room_on(arm.as_dvec3()) { arm } else { Vec3::ZERO }
     }
 
-    /// Whether the ball stays inside on an arm as rounded. In a needle there is no room for rounding: an arm along an
-    /// axis may lie along its sides in every bit, and another one does so up to rounding only.
+    /// Whether the ball stays inside on the arm as rounded to f32. A needle leaves no room for rounding: an arm along a
+    /// coordinate axis may be exactly parallel to its sides, any other is so only up to rounding.
     fn has_room_on(&self, arm: DVec3) -> bool {
         let center = self.center.as_dvec3();
         let lost = ARM_SHARE * f64::from(self.inner_radius) + f64::from(self.planarity_error);
@@ -46,7 +46,7 @@ impl HullData {
         faces.all(|(normal, height)| normal.dot(arm).abs() <= height - normal.dot(center) - lost)
     }
 
-    /// How far the ball can be moved along a line through the centre, either way, in metres.
+    /// How far the ball can be moved from the centre along a direction, either way, in metres.
     fn room_along(&self, along: DVec3) -> f64 {
         let center = self.center.as_dvec3();
         // Faces are flat up to the planarity error, and the arm is rounded to f32.

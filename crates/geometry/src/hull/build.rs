@@ -1,14 +1,14 @@
-//! From a cloud to a hull with a volume.
+//! Builds a hull with a volume from a cloud.
 //!
 //! ```text
-//! cloud -> exact hull, or as much of it as the number of vertices allows (quick) -> its vertices
+//! cloud -> exact hull, or as much of it as the vertex limit allows (quick) -> its vertices
 //!    vertices -> exact facets -> flat faces (merge) -> topology, normals, radii
 //!                     ^                |
-//!                     +-- without the vertices that ended up inside a flat face
+//!                     +----------------+ again without vertices that ended up inside a flat face
 //! ```
-//! Only vertices of the first hull take part after the first turn: what was inside it stays near the result, because
-//! the distance from a convex set is a convex function, and so is largest at a vertex. The same argument
-//! gives [`Hull::error`].
+//! After the first round only vertices of the first hull take part. Points inside that hull stay near the result, as
+//! the distance from a convex set is a convex function, and so is greatest at a vertex. The same argument gives
+//! [`Hull::error`].
 
 use super::cloud::{Cloud, half_diagonal};
 use super::distance::Surface;
@@ -24,16 +24,17 @@ use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// How many points that stand out are too many, however the facets merge.
+/// With more points that stand out, a hull has too many vertices however its facets merge.
 const CLEARLY_TOO_MANY: usize = 4 * MAX_HULL_VERTICES;
 
-/// How often the vertices that merging gave back are spent.
+/// How often the vertices that merging has freed are spent on further points.
 const SPENDINGS: usize = 4;
 
-/// Share of a cloud's size below which its first tetrahedron counts as flat, and heights say little about distances.
+/// Share of a cloud's size below which its first tetrahedron counts as flat, so that heights say little about
+/// distances.
 const FLAT: f64 = 0.05;
 
-/// How many of the points that made a hull stood out of it.
+/// Counts the points that stood out of the growing hull when they were added.
 struct Census {
     standing_out: usize,
     threshold: f64,
@@ -44,7 +45,7 @@ impl Census {
         Self { standing_out: 4, threshold: STANDS_OUT * cloud.scale }
     }
 
-    /// Counts the next point, and says whether there are not clearly too many.
+    /// Counts the next point; returns false once there are clearly too many.
     fn admits(&mut self, distance: f64) -> bool {
         self.standing_out += usize::from(distance > self.threshold);
         self.standing_out <= CLEARLY_TOO_MANY
@@ -52,7 +53,7 @@ impl Census {
 }
 
 impl Hull {
-    /// The hull of up to 65,535 points that span space. Cost: about n log n.
+    /// The convex hull of up to 65,535 points that span space. Cost: about n log n.
     ///
     /// A point that lies inside a face that is flat up to rounding is no vertex; [`Hull::error`] says how far
     /// outside the hull any such point may lie.
@@ -67,7 +68,7 @@ impl Hull {
         Self::whole(cloud, Growth::start(&cloud.points, Measure::Height)?, Census::of(cloud))
     }
 
-    /// The exact hull, from as far as it has grown.
+    /// Completes a growing hull to the exact one.
     fn whole(cloud: &Cloud, mut growth: Growth<'_>, mut census: Census) -> Result<Self, HullError> {
         if !growth.grow_while(|_, distance| census.admits(distance)) {
             return Err(HullError::TooManyVertices { at_least: census.standing_out });
@@ -75,7 +76,7 @@ impl Hull {
         Self::polished(cloud, growth.facets(), 0.0)
     }
 
-    /// The exact hull, if that has no more vertices than allowed; or that of as many points, the furthest first.
+    /// The exact hull if it has no more vertices than allowed, or else that of as many points, chosen furthest first.
     pub(super) fn limited(cloud: &Cloud, max_vertices: usize) -> Result<Self, HullError> {
         let (mut growth, mut census) = (Growth::start(&cloud.points, Measure::Height)?, Census::of(cloud));
         growth.grow_while(|count, distance| count < max_vertices && census.admits(distance));
@@ -91,7 +92,7 @@ impl Hull {
         Self::spent(cloud, growth, max_vertices)
     }
 
-    /// What has grown as far as the number of vertices allows. What merging gives back is spent again.
+    /// A hull grown as far as the vertex limit allows. Vertices that merging frees are spent on further points.
     fn spent(cloud: &Cloud, mut growth: Growth<'_>, max_vertices: usize) -> Result<Self, HullError> {
         let mut best = Self::polished(cloud, growth.facets(), growth.outlying())?;
         let mut budget = max_vertices;
@@ -111,7 +112,7 @@ impl Hull {
         Ok(best)
     }
 
-    /// Merges the facets of a hull within the cloud, which the cloud leaves by at most `outlying` metres.
+    /// Merges the facets of a hull of points of the cloud; no point lies further outside of it than `outlying` metres.
     fn polished(cloud: &Cloud, facets: Loops, outlying: f64) -> Result<Self, HullError> {
         let mut solid = Solid { cloud, kept: corners_of(&facets), dropped: Vec::new(), outlying };
         let mut facets = solid.numbered_by_kept(facets);
@@ -123,11 +124,11 @@ impl Hull {
                 let are_facets = normals.is_some();
                 let hull = solid.finish(Made { faces, facets: facets.clone(), normals })?;
                 let is_flat = f64::from(hull.planarity_error()) <= MERGED_PLANARITY * half_diagonal(&points);
-                // Of what is thinner than rounding, faces may have grown that lie nowhere near one plane.
+                // If the hull is thinner than rounding, merged faces may be nowhere near flat.
                 return if are_facets || is_flat { Ok(hull) } else { solid.finish(Made::of(facets)) };
             }
             let (count, turned_out) = (points.len(), inside.len());
-            // What shrinks slowly from far too many will not end up small enough; and it would be slow.
+            // A count that shrinks slowly from far too many would not end up small enough, and would take long.
             if count > 2 * MAX_HULL_VERTICES && 4 * turned_out < count {
                 return Err(HullError::TooManyVertices { at_least: count - turned_out });
             }
@@ -156,7 +157,7 @@ fn corners_of(facets: &Loops) -> Vec<u32> {
     corners
 }
 
-/// A hull in the making: indices into the cloud, of what is still a vertex and of what was one.
+/// A hull in the making: indices into the cloud of points that are still vertices, and of those that were.
 struct Solid<'a> {
     cloud: &'a Cloud,
     kept: Vec<u32>,
@@ -169,8 +170,8 @@ impl Solid<'_> {
         facets.renumbered(|corner| self.kept.binary_search(&corner).unwrap_or(0) as u32)
     }
 
-    /// What merging would flatten altogether, because its volume is no more than rounding: the exact facets of its
-    /// furthest points, a few more than those that merging would have left.
+    /// For a hull that merging would flatten altogether, as its volume is mere rounding: the exact facets of its
+    /// furthest points, a few more than merging would have left.
     fn unmerged(mut self, left: usize) -> Result<Hull, HullError> {
         let points: Vec<Vec3> = self.kept.iter().map(|&i| self.cloud.points[i as usize]).collect();
         let mut growth = Growth::start(&points, Measure::Distance)?;
@@ -193,7 +194,7 @@ impl Solid<'_> {
         self.finish(Made::of(facets))
     }
 
-    /// Derives everything else from the loops of places in `kept`.
+    /// Derives everything else from the loops, whose numbers are places in `kept`.
     fn finish(&self, made: Made) -> Result<Hull, HullError> {
         let at = |i: &u32| self.cloud.points[*i as usize];
         let source: Vec<u32> = self.kept.iter().map(|&i| self.cloud.source[i as usize]).collect();
@@ -205,25 +206,25 @@ impl Solid<'_> {
     }
 }
 
-/// Faces, and the exact facets that they were merged of.
+/// Faces, and the exact facets that they were merged from.
 pub(super) struct Made {
     pub(super) faces: Loops,
     pub(super) facets: Loops,
-    /// Of the faces, where they are the facets in canonical order.
+    /// Normals of the faces, if these are the facets in canonical order.
     pub(super) normals: Option<Vec<DVec3>>,
 }
 
 impl Made {
-    /// Of facets that are not merged.
+    /// Uses the facets as faces.
     fn of(facets: Loops) -> Self {
         Self { faces: facets.clone(), facets, normals: None }
     }
 }
 
 impl Hull {
-    /// A hull from the vertices in the order of a cloud, and where in the user's list each
-    /// vertex stood. Numbers first, which must depend on nothing but the places and which of them share a face, so that
-    /// a stored hull gets the same ones when it comes back; then the user's order.
+    /// A hull from vertices in the order of a cloud, and the place of each in the user's list. All numbers are computed
+    /// before the vertices are put into the user's order: so they depend only on positions and faces, and a stored hull
+    /// gets the same ones when it is restored.
     pub(super) fn of_faces(
         vertices: Vec<Vec3>,
         Made { faces, facets, normals }: Made,
@@ -243,7 +244,7 @@ impl Hull {
         hull.inner_radius = surface.inner_radius(hull.center, hull.inner_radius);
         let mut in_order: Vec<usize> = (0..count).collect();
         in_order.sort_unstable_by_key(|&place| source[place]);
-        // Vertices in the user's order, and faces in that of their loops then.
+        // Puts vertices into the user's order, and faces into the order of their renumbered loops.
         let mut number = vec![0_u32; count];
         for (new, &place) in (0..).zip(&in_order) {
             number[place] = new;
@@ -257,12 +258,12 @@ impl Hull {
     }
 }
 
-/// Loops of no more than 256 vertices in triangles.
+/// Triangulates loops of no more than 256 vertices.
 pub(super) fn in_triangles(loops: &Loops) -> Box<[[u8; 3]]> {
     loops.fans().map(|corners| corners.map(|i| i as u8)).collect()
 }
 
-/// Centre, radii and how flat the faces are; the rest is empty.
+/// Computes centre, radii and planarity error; leaves the rest empty.
 fn measured(vertices: &[Vec3], faces: &Loops, normals: &[DVec3]) -> Result<HullData, HullError> {
     let center = volume_center(vertices, faces).as_vec3();
     let from_center: Vec<DVec3> = vertices.iter().map(|v| v.as_dvec3() - center.as_dvec3()).collect();
@@ -277,7 +278,7 @@ fn measured(vertices: &[Vec3], faces: &Loops, normals: &[DVec3]) -> Result<HullD
         let high = from_center.iter().map(|&arm| normal.dot(arm)).fold(f64::NEG_INFINITY, f64::max);
         (inner, planarity) = (inner.min(low), planarity.max(high - low));
     }
-    // The inscribed sphere must hold for the true shape, which lies within the planarity error of its faces.
+    // The inscribed sphere must be valid for the true shape, which lies within the planarity error of its faces.
     let inner_radius = round_down((inner - planarity - 8.0 * f64::EPSILON * outer).max(0.0));
     Ok(HullData {
         dimension: 3,
@@ -305,7 +306,7 @@ fn volume_center(vertices: &[Vec3], faces: &Loops) -> DVec3 {
         volume += six_fold;
         moment += (a + b + c) * six_fold;
     }
-    // A sliver's volume may vanish in f64, and rounding may push the quotient out: any inner point will do then.
+    // A sliver's volume may vanish in f64, or rounding may push the quotient outside: then any inner point will do.
     let center = origin + moment / (4.0 * volume);
     let (low, high) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| {
         (low.min(v.as_dvec3()), high.max(v.as_dvec3()))

@@ -1,4 +1,4 @@
-//! Whether a hull is what it says, from its vertices and loops alone.
+//! Verifies a hull from its vertices and face loops alone.
 
 use super::Hull;
 use super::build::in_triangles;
@@ -11,7 +11,7 @@ use crate::topology::Topology;
 use glam::{DVec3, Vec3};
 use std::collections::BTreeSet;
 
-/// What is wrong with a hull.
+/// A fault in a hull, as found by [`Hull::check`].
 ///
 /// ```
 /// use asunder_geometry::{Hull, HullFault, glam::Vec3};
@@ -25,7 +25,7 @@ use std::collections::BTreeSet;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullFault {
-    /// A half-edge has no twin that runs back along it, in another face.
+    /// A half-edge has no opposite twin in another face.
     Open {
         /// The half-edge.
         half_edge: usize,
@@ -39,12 +39,12 @@ pub enum HullFault {
         /// Number of faces.
         faces: usize,
     },
-    /// A face has fewer corners than a triangle, or the same one twice.
+    /// A face has fewer than three corners, or the same one twice.
     BadLoop {
         /// The face.
         face: usize,
     },
-    /// A normal is not of unit length, or not that of its loop, or one is missing.
+    /// A normal is not of unit length, does not match its loop, or is missing.
     BadNormal {
         /// The face.
         face: usize,
@@ -53,10 +53,10 @@ pub enum HullFault {
     NotConvex {
         /// The face.
         face: usize,
-        /// How far any vertex lies beyond the lowest of the face, in metres.
+        /// How far the furthest vertex lies beyond the lowest one of the face, in metres.
         beyond: f64,
     },
-    /// The hull's spheres do not hold it, or are not held by it.
+    /// The bounding sphere does not contain the hull, or the hull does not contain the inscribed sphere.
     BadRadius,
     /// A vertex is none of the points.
     ForeignVertex {
@@ -70,7 +70,7 @@ pub enum HullFault {
         /// How far, in metres.
         distance: f64,
     },
-    /// Two neighbouring faces are one flat face.
+    /// Two neighbouring faces should have been merged into one flat face.
     NotMerged {
         /// The one with the lower index.
         first: usize,
@@ -100,19 +100,23 @@ impl core::fmt::Display for HullFault {
 impl core::error::Error for HullFault {}
 
 impl Hull {
-    /// Checks the hull, without its rounding, against the points it was made of: closed, of Euler's formula, simple
-    /// loops, outward unit normals, convex within [`Hull::planarity_error`], spheres that hold, vertices that are
-    /// points bit for bit, every point within [`Hull::error`], and no neighbouring faces that should have been
-    /// merged.
+    /// Checks the hull, without its rounding, against the points it was made from: it is closed and satisfies Euler's
+    /// formula, loops are simple, normals are outward and of unit length, it is convex within
+    /// [`Hull::planarity_error`], the spheres are right, vertices are given points bit for bit, every point is within
+    /// [`Hull::error`], and no neighbouring faces should have been merged.
     ///
-    /// Hulls that are made of points pass, save some six of a million clouds that are thinner than f64 rounds; this is
-    /// for tests, and for whoever doubts. One that was stored and came back passes as before. But loops that somebody
-    /// else stored are taken as they are if they close a convex surface: a flat face in parts stays in parts, which is
-    /// [`HullFault::NotMerged`] here and no fault elsewhere. Everything is worked out again from vertices and loops.
-    /// Cost: the points, times the faces' corners.
+    /// This is for tests, and for callers in doubt; everything is computed anew from vertices and loops.
+    ///
+    /// - A hull that was built from points passes, except for about six in a million of those whose points are thinner
+    ///   than f64 resolves.
+    /// - A hull that was stored and restored passes exactly if the original did.
+    /// - A hull that was stored by other code may fail: restoring accepts any loops that close a convex surface. A flat
+    ///   face may then be several coplanar faces, which is [`HullFault::NotMerged`] here and harmless elsewhere.
+    ///
+    /// Cost: the number of points times that of face corners.
     ///
     /// # Errors
-    /// The first fault found, in the order above. Points other than those the hull was made of are faults too.
+    /// The first fault found, in the order above. Points other than those the hull was made from lead to faults, too.
     pub fn check(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let examiner = Examiner::of(self, points);
         examiner.closed()?;
@@ -130,10 +134,10 @@ pub(super) struct Examiner<'a> {
     hull: &'a Hull,
     topology: &'a Topology,
     vertices: Vec<DVec3>,
-    /// The loops, each from the corner that a cloud has first. From there the builder worked out their areas: of a
-    /// needle that is no wider than rounding, another start may give another one.
+    /// The loops, each starting at its first corner in the order of a `Cloud`. The builder
+    /// computes areas from there, and for a needle no wider than rounding the start may change the result.
     faces: Vec<Vec<usize>>,
-    /// What f64 may lose on a number of the hull's size, in metres.
+    /// The rounding error of f64 on numbers of the hull's size, in metres.
     slack: f64,
     /// Half the diagonal of the box around the points, in metres.
     scale: f64,
@@ -150,7 +154,7 @@ impl<'a> Examiner<'a> {
             corners
         };
         let faces = (0..topology.face_count()).map(around).collect();
-        // From the spread of the vertices, and not from the hull's own radius.
+        // From the spread of the vertices, as the hull's radius is not verified yet.
         let slack = 1e-14 * half_diagonal(hull.vertices());
         Self { hull, topology, vertices, faces, slack, scale: half_diagonal(points) }
     }
@@ -193,7 +197,8 @@ impl<'a> Examiner<'a> {
         Ok(())
     }
 
-    /// Unit, along the loop's own area: with convexity, that is outwards.
+    /// Normals are of unit length, and along the area vector of their loop: together with convexity, that means
+    /// outwards.
     pub(super) fn normals(&self) -> Result<(), HullFault> {
         let normals = self.hull.normals();
         let expected = if self.hull.dimension() >= 2 { self.faces.len() } else { 0 };
@@ -203,7 +208,7 @@ impl<'a> Examiner<'a> {
         for (face, normal) in normals.iter().enumerate() {
             let area = self.area(face);
             let is_unit = (normal.length() - 1.0).abs() < 1e-14;
-            // An area that is rounding has no direction to compare; convexity still binds the normal.
+            // An area that is mere rounding has no direction to compare with; convexity still constrains the normal.
             let is_along = normal.dot(area) >= (1.0 - 1e-6) * area.length() || self.is_noise(face);
             if !is_unit || !is_along {
                 return Err(HullFault::BadNormal { face });
@@ -255,8 +260,9 @@ impl<'a> Examiner<'a> {
         }
     }
 
-    /// Of a solid, by facets that are found anew: faces are flat up to rounding only. From the order that a cloud has,
-    /// as the builder found them: of a facet without width, other triangles are as near up to rounding only.
+    /// For a solid, uses exact facets computed anew, as faces are flat only up to rounding. They are computed in the
+    /// order of a cloud, as in the builder: a facet without width can be triangulated in several ways, which give equal
+    /// distances only up to rounding.
     fn containing(&self, points: &[Vec3]) -> Result<(), HullFault> {
         let allowed = f64::from(self.hull.error()) + self.slack;
         let own = self.hull.data.surface();
@@ -282,9 +288,9 @@ impl<'a> Examiner<'a> {
         Ok(())
     }
 
-    /// Two neighbours are one face if the smaller lies within the tolerance of the larger one's plane and both
-    /// together have one simple outline. A hull that is itself no thicker than twice the tolerance may have them:
-    /// merging could flatten it.
+    /// Two neighbouring faces should be one if the smaller lies within the tolerance of the larger one's plane and
+    /// their union has one simple outline. Hulls no thicker than twice the tolerance are exempt, as merging could
+    /// flatten them.
     fn merged(&self) -> Result<(), HullFault> {
         let depth =
             |face| self.vertices.iter().map(|&v| self.height(face, v)).fold(f64::INFINITY, f64::min).abs();
@@ -298,7 +304,7 @@ impl<'a> Examiner<'a> {
             let twin = self.topology.half_edges()[half_edge.twin as usize];
             let (first, second) = (half_edge.face as usize, twin.face as usize);
             for (large, small) in [(first, second), (second, first)] {
-                // Nearly equal areas may be ranked either way: what is checked must hold for the certain rank.
+                // Nearly equal areas may have been ranked either way, so only clearly different ones are checked.
                 if areas[large] * 0.999 > areas[small] && self.are_one(large, small) {
                     return Err(HullFault::NotMerged { first: first.min(second), second: first.max(second) });
                 }

@@ -1,4 +1,4 @@
-//! A cloud of points, checked, each place once, in an order that depends on the places alone.
+//! A checked cloud of points without duplicates, in an order that depends on positions alone.
 
 use super::HullError;
 use crate::tolerance::{MAX_HULL_POINTS, MAX_RADIUS};
@@ -6,10 +6,10 @@ use glam::{DVec3, Vec3};
 
 /// Finite points within range, no two the same, sorted by x, then y, then z.
 ///
-/// Sorted, so that whatever breaks ties by index answers alike however the points were shuffled.
+/// Sorted, so that code which breaks ties by index gives the same result however the points were shuffled.
 pub(super) struct Cloud {
     pub(super) points: Vec<Vec3>,
-    /// Where in the user's list each of them stood first.
+    /// The first index of each in the user's list.
     pub(super) source: Vec<u32>,
     /// Half the diagonal of the box around them, in metres: the size that [`COPLANAR`] is a share of.
     ///
@@ -28,7 +28,7 @@ impl Cloud {
             })
             .collect();
         keys.sort_unstable();
-        // Equal places stand side by side, the earliest of the list first.
+        // Equal points are adjacent, the first of the list in front.
         keys.dedup_by_key(|&mut (xy, zi)| (xy, zi >> 32));
         let source: Vec<u32> = keys.iter().map(|&(_, zi)| zi as u32).collect();
         let points: Vec<Vec3> = source.iter().map(|&i| points[i as usize]).collect();
@@ -63,12 +63,12 @@ fn check_points(points: &[Vec3], least: usize) -> Result<(), HullError> {
     Ok(())
 }
 
-/// What a cloud's points are sorted by.
+/// The sort key of a cloud's points.
 pub(super) fn rank(point: Vec3) -> [u32; 3] {
     point.to_array().map(ascending)
 }
 
-/// An integer that orders finite numbers as they are ordered, with one zero: -0 and +0 are one place.
+/// An integer with the order of finite numbers, in which -0 and +0 are the same.
 fn ascending(coordinate: f32) -> u32 {
     let bits = (coordinate + 0.0).to_bits();
     if bits >> 31 == 0 { bits | 1 << 31 } else { !bits }

@@ -1,4 +1,4 @@
-//! How far from a hull a point is, and whether the hull holds it.
+//! Distance of a point from a hull, and whether the hull contains it.
 
 use super::{Hull, HullData};
 use crate::outward::round_up;
@@ -7,18 +7,18 @@ use glam::{DVec3, Vec3};
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 impl Hull {
-    /// Whether the closed shape holds a local point, in metres.
+    /// Whether the closed shape contains a local point, in metres.
     ///
-    /// - Without rounding, decided exactly: the hull of the vertices, even where facets were merged into a face that is
-    ///   flat up to rounding only; as long as no product of three coordinates underflows, as of a coordinate below
-    ///   1e-200 m.
-    /// - With rounding, what is within the radius of the nearest feature.
+    /// - Without rounding, this is decided exactly, for the hull of the vertices, even where facets were merged into a
+    ///   face that is flat only up to rounding. Exact as long as no product of three coordinates underflows, as it may
+    ///   with a coordinate below 1e-200 m.
+    /// - With rounding, the shape is whatever lies within the radius of the nearest feature.
     ///
-    /// Cost: a dot product per face; for a point that is on the surface up to rounding, 30 to 50 ns for each triangle
-    /// of the surface (Intel Xeon, Ice Lake, 2026-11-27).
+    /// Cost: a dot product per face; for a point on the surface up to rounding, 30 to 50 ns for each triangle of the
+    /// surface (Intel Xeon, Ice Lake, 2026-11-27).
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         let point = point.into();
-        // Far beyond any shape, where squares would overflow.
+        // Such a point is far beyond any shape, and its squares could overflow.
         if !point.is_finite() || point.abs().max_element() > 4.0 * f64::from(MAX_RADIUS) {
             return false;
         }
@@ -27,8 +27,8 @@ impl Hull {
         }
         let radius = f64::from(self.radius);
         let beyond = self.data.beyond_faces(point);
-        // Of their roundings and the point's there are some ten, and a face's own corners lie off its plane by no more
-        // than this.
+        // Covers some ten roundings of normals, heights and the point; a face's own corners are not further off its
+        // plane.
         let rounding = 32.0 * f64::EPSILON * (point.abs().element_sum() + f64::from(self.extent()));
         if beyond > radius + rounding {
             return false;
@@ -45,7 +45,7 @@ impl Hull {
 }
 
 impl HullData {
-    /// Whether a hull without volume holds a point: exact, as long as no product of three coordinates underflows.
+    /// Whether a hull without volume contains a point: exact, as long as no product of three coordinates underflows.
     pub(super) fn bears(&self, p: DVec3) -> bool {
         let vertex = |i: usize| self.vertices[i].as_dvec3();
         match self.vertices.len() {
@@ -58,7 +58,7 @@ impl HullData {
                     && p.cmple(a.max(b)).all()
             }
             count => {
-                // Any corner makes a triangle with the first edge: no three are on one line.
+                // Any three corners make a triangle, as no three are on one line.
                 let (normal, axis) = (self.normals[0], largest_axis(self.normals[0]));
                 let height = orient3d(exact(vertex(0)), exact(vertex(1)), exact(vertex(2)), exact(p));
                 let sense = normal[axis].signum();
@@ -68,9 +68,8 @@ impl HullData {
         }
     }
 
-    /// How far a point is beyond the vertices along the normal of any face, at most, in metres: a bound on its distance
-    /// from below; below zero where it is in front of none. Of a segment or a point, which have no faces, nothing is
-    /// known.
+    /// The greatest height of a point above any face, in metres: a lower bound of its distance, negative if it is in
+    /// front of no face. Minus infinity for a segment or a point, which have no faces.
     fn beyond_faces(&self, p: DVec3) -> f64 {
         let mut most = f64::NEG_INFINITY;
         for (normal, &height) in self.normals.iter().zip(&self.octets.heights) {
@@ -100,8 +99,8 @@ impl Surface<'_> {
         self.facets.iter().map(|corners| corners.map(|i| self.vertices[usize::from(i)].as_dvec3()))
     }
 
-    /// An upper bound on a point's distance from the hull: its distance to the nearest triangle of any facet, or zero
-    /// where none has it outside.
+    /// An upper bound on a point's distance from the hull: its distance to the nearest triangle, or zero if it lies
+    /// outside of none.
     pub(super) fn distance_outside(&self, p: DVec3) -> f64 {
         if self.dimension == 3 && !self.is_outside(p) {
             return 0.0;
@@ -109,8 +108,8 @@ impl Surface<'_> {
         self.triangles().map(|corners| to_triangle(p, corners)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The largest of the bounds above over many points. A point that is nearer than the furthest so far to any
-    /// triangle need not know which is nearest.
+    /// The greatest of these bounds over many points. For a point that is nearer to any triangle than the furthest
+    /// point so far, the nearest triangle need not be found.
     pub(super) fn furthest_outside(&self, points: impl Iterator<Item = DVec3>) -> f64 {
         let (mut most, mut near) = (0.0, self.near());
         for p in points {
@@ -122,7 +121,7 @@ impl Surface<'_> {
         most
     }
 
-    /// The same triangles, for many points in turn.
+    /// Its triangles, prepared for many points in turn.
     pub(super) fn near(&self) -> Near {
         Near { triangles: self.triangles().collect(), last: 0 }
     }
@@ -136,8 +135,8 @@ impl Surface<'_> {
         })
     }
 
-    /// The radius of a ball about the centre inside, made negative where the centre lies outside, so that it holds with
-    /// rounding too.
+    /// The inner radius about the centre, made negative if the centre lies outside, so that it stays valid when the
+    /// hull's radius is added.
     pub(super) fn inner_radius(&self, center: Vec3, radius: f32) -> f32 {
         if radius > 0.0 {
             return radius;
@@ -147,15 +146,15 @@ impl Surface<'_> {
     }
 }
 
-/// Triangles of which many points are asked about, one mostly near the last.
+/// Triangles for distance queries of many points, each mostly near the last.
 pub(super) struct Near {
     triangles: Vec<[DVec3; 3]>,
-    /// The triangle that the last point was found near.
+    /// The triangle nearest to the last point.
     last: usize,
 }
 
 impl Near {
-    /// A point's distance to the nearest triangle; or to any that is no further than `enough`.
+    /// A point's distance to the nearest triangle, or to any that is no further than `enough`.
     pub(super) fn distance(&mut self, p: DVec3, enough: f64) -> f64 {
         let mut least = (f64::INFINITY, self.last);
         for index in (self.last..self.triangles.len()).chain(0..self.last) {
@@ -187,8 +186,9 @@ fn largest_axis(v: DVec3) -> usize {
     (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
 }
 
-/// Distance from a point to a triangle, never below the truth by more than the rounding of a length: always to a place
-/// that is given by weights within the triangle, however badly those are conditioned. Two corners or all may be equal.
+/// Distance from a point to a triangle. Never below the true one by more than the rounding of a length: it is always
+/// measured to a point given by weights within the triangle, however badly conditioned these are. Two corners or all
+/// may be equal.
 pub(super) fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let (u, v, w) = (b - a, c - a, p - a);
     let normal = u.cross(v);
@@ -202,7 +202,8 @@ pub(super) fn to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     if area > 1e-6 * u.length_squared() * v.length_squared() {
         return across(first).unwrap_or_else(|| to_edges(p, [a, b, c]));
     }
-    // Badly conditioned: what is left is small, and so is what its weights are off by. The edges add a bound.
+    // Badly conditioned: a second step on the small remainder has a small error, too. The distance to the edges is
+    // another upper bound.
     let more = weights(w - u * first.0 - v * first.1);
     let second = (first.0 + more.0, first.1 + more.1);
     [first, second].into_iter().filter_map(across).fold(to_edges(p, [a, b, c]), f64::min)

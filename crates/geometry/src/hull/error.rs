@@ -1,8 +1,8 @@
-//! Why a cloud of points is no hull.
+//! Why a hull cannot be made of some points.
 
 use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIUS};
 
-/// Why points were refused as a hull.
+/// Why points were rejected as a hull.
 ///
 /// ```
 /// use asunder_geometry::{Hull, HullError, glam::Vec3};
@@ -12,7 +12,7 @@ use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIU
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullError {
-    /// Fewer than four points, or none where fewer would do.
+    /// Fewer than four points, or none where one would do.
     TooFewPoints {
         /// How many were given.
         count: usize,
@@ -39,7 +39,7 @@ pub enum HullError {
     },
     /// The points span no volume.
     Flat {
-        /// What they do span: 0 a point, 1 a line, 2 a plane.
+        /// The dimension of what they span: 0 a point, 1 a line, 2 a plane.
         dimension: u8,
     },
     /// The hull has more vertices than it may.

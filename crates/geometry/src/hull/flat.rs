@@ -1,4 +1,4 @@
-//! Hulls without volume: flat ones, segments and points.
+//! Hulls without volume: flat hulls, segments and points.
 
 use super::cloud::Cloud;
 use super::normal::{area_vector, unit};
@@ -12,11 +12,11 @@ use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 impl Hull {
-    /// The hull of 1 to 65,535 points, whatever they span: like [`Hull::from_points`], but points that lie in one
-    /// plane, on one line or at one place, exactly, give a flat hull, a segment or a point. Cost: about n log n.
+    /// The hull of 1 to 65,535 points of any dimension: like [`Hull::from_points`], but points that are exactly
+    /// coplanar, collinear or equal give a flat hull, a segment or a point. Cost: about n log n.
     ///
-    /// A flat hull has its vertices in order around and two faces back to back; a segment and a point have no
-    /// normals. [`Hull::dimension`] tells them apart. A cloud that is a rounding off its plane has a volume.
+    /// A flat hull has its vertices in order around and two faces back to back; a segment and a point have no normals.
+    /// [`Hull::dimension`] says which it is. Points that are off a plane by rounding have a volume.
     ///
     /// ```
     /// use asunder_geometry::{Hull, glam::{DVec3, Vec3}};
@@ -37,7 +37,7 @@ impl Hull {
         let cloud = Cloud::new(points, 1)?;
         match Self::solid(&cloud) {
             Err(HullError::Flat { dimension: 2 }) => Self::flat(&cloud),
-            // Sorted points on a line are sorted along it.
+            // The points are sorted, so those on a line are sorted along it.
             Err(HullError::Flat { .. }) => Self::thread(&cloud),
             solid => solid,
         }
@@ -51,7 +51,7 @@ impl Hull {
         }
     }
 
-    /// The flat hull of a cloud in one plane that turns as a triangle of its points does.
+    /// The flat hull of a coplanar cloud, with the orientation of a triangle of its points.
     pub(super) fn flat_around(cloud: &Cloud, triangle: [u32; 3]) -> Result<Self, HullError> {
         let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
         let around = planar_hull(&cloud.points, &all, triangle);
@@ -70,13 +70,13 @@ impl Hull {
         let mut hull = Self::low(2, vertices, topology, center)?;
         hull.normals = Box::new([normal, -normal]);
         hull.planarity_error = round_up(high - low);
-        // Last, so that no number depends on the order of the user's points.
+        // Rotated last, so that no computed number depends on the order of the user's points.
         let first = (0..around.len()).min_by_key(|&place| cloud.source[around[place] as usize]).unwrap_or(0);
         hull.vertices.rotate_left(first);
         Ok(Self { data: Arc::new(hull.finished()), radius: 0.0 })
     }
 
-    /// The hull of points on one line, or at one place.
+    /// The hull of collinear or equal points.
     fn thread(cloud: &Cloud) -> Result<Self, HullError> {
         let (first, last) = (0, cloud.points.len() - 1);
         let hull = if first == last {
@@ -102,7 +102,7 @@ impl Hull {
         if dimension > 0 && outer_radius < MIN_RADIUS {
             return Err(HullError::TooSmall { radius: outer_radius });
         }
-        // A fan from the first vertex; of one or two, a triangle without area.
+        // A fan from the first vertex; a triangle without area for one or two vertices.
         let last = vertices.len() - 1;
         let facets = (0..last.saturating_sub(1).max(1))
             .map(|i| [0, (i + 1).min(last), (i + 2).min(last)].map(|i| i as u8))
@@ -143,6 +143,6 @@ fn area_center(vertices: &[Vec3]) -> DVec3 {
     let (low, high) = vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| {
         (low.min(v.as_dvec3()), high.max(v.as_dvec3()))
     });
-    // A sliver's area may vanish in f64: any inner place will do then.
+    // A sliver's area may vanish in f64: then any inner point will do.
     if area > 0.0 { center.clamp(low, high) } else { (low + high) * 0.5 }
 }

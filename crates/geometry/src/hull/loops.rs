@@ -1,7 +1,7 @@
-//! Loops of vertices, in one list: facets and faces while a hull is made.
+//! Loops of vertices in one flat list: the facets and faces while a hull is made.
 //!
-//! A hull of 16 points has some thirty, and they are put in order, renumbered and compared: in a list of lists, a
-//! quarter of the instructions that making a hull takes went into asking for memory (Intel Xeon, Ice Lake, 2026-11-27).
+//! A hull of 16 points has some thirty, which are sorted, renumbered and compared: with a list of lists, a quarter of
+//! the instructions of making a hull went into allocation (Intel Xeon, Ice Lake, 2026-11-27).
 
 use core::ops::Range;
 
@@ -14,7 +14,7 @@ pub(super) struct Loops {
 }
 
 impl Loops {
-    /// None, with room for so many triangles.
+    /// No loops, with room for so many triangles.
     pub(super) fn with_room(triangles: usize) -> Self {
         Self { corners: Vec::with_capacity(3 * triangles), ends: Vec::with_capacity(triangles) }
     }
@@ -28,7 +28,7 @@ impl Loops {
         self.ends.len()
     }
 
-    /// The places of a loop's corners among those of all.
+    /// The range of a loop's corners among those of all.
     #[inline]
     pub(super) fn places(&self, index: usize) -> Range<usize> {
         let start = if index == 0 { 0 } else { self.ends[index - 1] as usize };
@@ -50,14 +50,14 @@ impl Loops {
         &self.corners
     }
 
-    /// The same loops of vertices that have other numbers.
+    /// The same loops with other vertex numbers.
     pub(super) fn renumbered(mut self, number: impl Fn(u32) -> u32) -> Self {
         self.corners.iter_mut().for_each(|corner| *corner = number(*corner));
         self
     }
 
-    /// In an order that depends on nothing but themselves: each from its lowest corner, and sorted. Beside each, what
-    /// belongs to it.
+    /// The loops in canonical order: each starting at its lowest corner, and sorted. `beside` has a value for each
+    /// loop, and is returned in the same order.
     pub(super) fn in_order<T: Copy>(mut self, beside: &[T]) -> (Self, Vec<T>) {
         for index in 0..self.len() {
             let places = self.places(index);
@@ -65,7 +65,7 @@ impl Loops {
             let lowest = (0..around.len()).min_by_key(|&place| around[place]).unwrap_or(0);
             around.rotate_left(lowest);
         }
-        // By their first edges: no two loops of a surface run along the same one the same way.
+        // By their first edges: no two loops of a surface use the same edge in the same direction.
         let mut order: Vec<[u32; 3]> = (0..)
             .zip(self.iter())
             .map(|(index, around)| {
@@ -82,12 +82,12 @@ impl Loops {
         (sorted, order().filter_map(|index| beside.get(index).copied()).collect())
     }
 
-    /// As [`in_order`](Self::in_order), with nothing beside them.
+    /// As [`in_order`](Self::in_order), without other values.
     pub(super) fn canonical(self) -> Self {
         self.in_order::<()>(&[]).0
     }
 
-    /// Each as a fan of triangles from its first corner.
+    /// Each loop as a fan of triangles from its first corner.
     pub(super) fn fans(&self) -> impl Iterator<Item = [u32; 3]> {
         self.iter().flat_map(|around| {
             let first = around.first().copied().unwrap_or(0);

@@ -1,36 +1,36 @@
-//! Merging facets that differ from one plane by rounding only.
+//! Merges facets that differ from one plane by rounding only.
 //!
 //! ```text
 //! for each facet not yet in a face, the largest first:
-//!   grow over neighbouring facets that face its way and have every corner within the tolerance of its plane,
+//!   grow over neighbouring facets that face the same way and have every corner within the tolerance of its plane,
 //!     each only if the outline stays one simple loop
 //! repeat with the faces as facets until nothing grows
-//! vertices that no outline visits lie inside a face: they are reported, and the hull is built again without them
+//! vertices on no outline lie inside a face: they are returned, and the hull is built again without them
 //! ```
-//! Growing from the largest facet measures distance from the best-conditioned plane, never from a sliver's. A region
-//! that would close around an island waits until the island is part of it, or leaves one facet out.
+//! Growing from the largest facet measures distances from the best-conditioned plane, never from a sliver's. A region
+//! that would close around an island either takes in the island first, or leaves one facet out.
 
 use super::loops::Loops;
 use super::normal::{areas_and_normals, neighbours};
 use glam::{DVec3, Vec3};
 
-/// No vertex.
+/// Stands for no vertex.
 const NONE: u32 = u32::MAX;
 
-/// How often a facet is tried for one region. It is tried again because what kept the outline from being a loop may be
-/// filled in meanwhile; often enough, without letting one facet of thousands of corners cost their square.
+/// How often a facet is tried for one region. It is tried again because gaps that kept the outline from being one loop
+/// may have been filled meanwhile; the limit keeps a facet of thousands of corners from costing their square.
 const TRIES: u8 = 8;
 
 /// Faces as vertex loops, and the vertices that ended up inside one, ascending.
 pub(super) struct Merged {
     pub(super) faces: Loops,
     pub(super) inside: Vec<u32>,
-    /// Of the faces, where none was merged: then they are the facets, in their order.
+    /// Normals of the faces, if none was merged: then these are the facets, in their order.
     pub(super) normals: Option<Vec<DVec3>>,
 }
 
-/// Merges until every vertex that is inside a face is found, or nothing more can be merged. Cost: n log n, times
-/// rounds of which few hulls need more than two.
+/// Merges until some vertex lies inside a face, or nothing more can be merged. Cost: n log n per round; few hulls need
+/// more than two rounds.
 pub(super) fn merge_facets(points: &[Vec3], facets: &Loops, tolerance: f64) -> Merged {
     let sheet = Sheet::of(points, facets, tolerance);
     if !sheet.has_flat_neighbours() {
@@ -55,7 +55,7 @@ fn not_visited(facets: &Loops, faces: &Loops, count: usize) -> Vec<u32> {
     (0..count as u32).filter(|&i| is_missing[i as usize]).collect()
 }
 
-/// The facets of a hull, and what is known of each.
+/// The facets of a hull, and their derived data.
 struct Sheet<'a> {
     points: &'a [Vec3],
     facets: &'a Loops,
@@ -65,7 +65,7 @@ struct Sheet<'a> {
     tolerance: f64,
 }
 
-/// Midway between a facet's corners, along its normal.
+/// The plane of a facet, midway between its lowest and highest corner along its normal.
 struct Level {
     normal: DVec3,
     origin: DVec3,
@@ -90,14 +90,14 @@ impl<'a> Sheet<'a> {
         Level { middle: (low + high) * 0.5, ..level }
     }
 
-    /// Whether a facet faces the way of a level, and all of it lies there.
+    /// Whether a facet faces the same way as a level, and lies within the tolerance of it.
     fn is_flat(&self, facet: usize, level: &Level) -> bool {
         let is_there =
             |&i: &u32| (level.height(self.points[i as usize]) - level.middle).abs() <= self.tolerance;
         self.normals[facet].dot(level.normal) > 0.5 && self.facets.get(facet).iter().all(is_there)
     }
 
-    /// Whether any facet lies in the plane of one beside it.
+    /// Whether any facet lies in the plane of a neighbour.
     fn has_flat_neighbours(&self) -> bool {
         (0..self.facets.len()).any(|facet| {
             let level = self.level(facet);
@@ -107,7 +107,7 @@ impl<'a> Sheet<'a> {
         })
     }
 
-    /// The largest facets first, each with all that grows onto it.
+    /// Faces grown from the facets, the largest first.
     fn merged(&self) -> Loops {
         let mut by_area: Vec<(f64, usize)> = self.areas.iter().map(|area| area.length()).zip(0..).collect();
         by_area.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
@@ -186,13 +186,13 @@ impl Outline {
         let is_shared = |i: usize| self.after[facet[(i + 1) % count] as usize] == facet[i % count];
         let shared = (0..count).filter(|&i| is_shared(i)).count();
         let touching = facet.iter().filter(|&&i| self.after[i as usize] != NONE).count();
-        // A single chain has one vertex more than edges; two chains, or a touch elsewhere, have more.
+        // A single chain of shared edges has one vertex more than edges; two chains, or a touch elsewhere, have more.
         let is_chain = shared > 0 && touching == shared + 1;
         if !is_chain || self.length + count < 2 * shared + 3 {
             return false;
         }
         let Some(end) = (0..count).find(|&i| is_shared(i) && !is_shared(i + 1)) else { return false };
-        // Edges end - shared + 1 ..= end are shared: their inner vertices leave the outline, the other edges join it.
+        // Edges `end - shared + 1 ..= end` are shared: their inner vertices leave the outline, the other edges join it.
         for i in end + 2 + count - shared..=end + count {
             self.after[facet[i % count] as usize] = NONE;
         }
@@ -203,7 +203,7 @@ impl Outline {
         true
     }
 
-    /// The loop from its first vertex among `candidates`, and an outline that is empty again.
+    /// Takes the loop, starting at its first vertex among `candidates`, and leaves the outline empty.
     fn take(&mut self, mut candidates: impl Iterator<Item = u32>) -> Vec<u32> {
         let mut around = Vec::with_capacity(self.length);
         let Some(mut at) = candidates.find(|&i| self.after[i as usize] != NONE) else { return around };

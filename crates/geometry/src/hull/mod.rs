@@ -34,8 +34,8 @@ use std::sync::Arc;
 /// The convex hull of points in space: up to 256 vertices in metres. Clones share the data.
 ///
 /// The vertices are a subset of the points, bit for bit. Which points are vertices, and which facets bound them, is
-/// decided exactly; facets that differ from one plane by rounding only are then merged into one face, and
-/// [`Hull::planarity_error`] says by how much such a face is not flat.
+/// decided exactly. Facets that differ from one plane by rounding only are then merged into one face;
+/// [`Hull::planarity_error`] is how far such faces are from flat.
 ///
 /// ```
 /// use asunder_geometry::{Hull, glam::Vec3};
@@ -58,22 +58,22 @@ struct HullData {
     vertices: Box<[Vec3]>,
     topology: Topology,
     normals: Box<[DVec3]>,
-    /// The exact surface in triangles: of faces that were merged, the facets that they were merged of. There are no
-    /// more than 256 vertices.
+    /// The exact surface in triangles: those of the facets before merging. `u8` is enough for 256 vertices.
     facets: Box<[[u8; 3]]>,
     octets: Octets,
     center: Vec3,
     outer_radius: f32,
-    /// Below zero by the centre's distance where rounding put the centre beside a hull without volume.
+    /// If rounding put the centre beside a hull without volume: minus its distance from the hull.
     inner_radius: f32,
-    /// Half of a segment about the centre on which nearly all of that ball stays inside: see `ARM_SHARE`.
+    /// Half of a segment about the centre along which a slightly smaller ball can be moved inside: see `ARM_SHARE`.
     inner_arm: Vec3,
     planarity_error: f32,
     error: f32,
 }
 
 impl Hull {
-    /// What the points span: 3 space, 2 a plane, 1 a line, 0 a point. Below 3 only from [`Hull::of_any_dimension`].
+    /// The dimension of what the points span: 3 space, 2 a plane, 1 a line, 0 a point. Below 3 only from
+    /// [`Hull::of_any_dimension`].
     ///
     /// A flat hull has two faces back to back, one half-edge loop each; a segment and a point have one face loop and no
     /// normals, as their [`Core3`](crate::Core3).
@@ -82,13 +82,13 @@ impl Hull {
         self.data.dimension
     }
 
-    /// The vertices, in the order of the points they were; of a flat hull, in order around.
+    /// The vertices, in the order of the given points; of a flat hull, in order around.
     #[inline]
     pub fn vertices(&self) -> &[Vec3] {
         &self.data.vertices
     }
 
-    /// Faces, edges and how they meet.
+    /// How faces, edges and vertices are connected.
     #[inline]
     pub fn topology(&self) -> &Topology {
         &self.data.topology
@@ -100,7 +100,7 @@ impl Hull {
         &self.data.normals
     }
 
-    /// How far the core reaches along each normal, in metres from its origin.
+    /// The support height of the core along each normal, in metres from its origin.
     #[inline]
     pub(crate) fn heights(&self) -> &[f64] {
         &self.data.octets.heights
@@ -136,26 +136,26 @@ impl Hull {
         self.data.octets.extent
     }
 
-    /// Radius of a sphere about the centre that lies inside the core; below zero by the centre's distance from it.
+    /// Radius of a sphere about the centre that lies inside the core; minus the distance if the centre lies outside.
     #[inline]
     pub(crate) fn core_inner_radius(&self) -> f32 {
         self.data.inner_radius
     }
 
-    /// Half of a segment about the centre on which nearly all of that ball stays inside the core.
+    /// Half of a segment about the centre along which a slightly smaller ball can be moved inside the core.
     #[inline]
     pub(crate) fn core_inner_arm(&self) -> Vec3 {
         self.data.inner_arm
     }
 
-    /// The centre that both radii are about: the centre of volume, area or length, rounded to f32.
+    /// The centre of both radii: the centre of volume, area or length, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec3 {
         self.data.center
     }
 
-    /// The same hull with everything within `radius` metres added: round corners and edges, and larger by the radius on
-    /// every side. Zero takes the rounding away.
+    /// The same hull, expanded by `radius` metres on every side, with round edges and corners. Zero removes the
+    /// rounding.
     ///
     /// ```
     /// use asunder_geometry::{Hull, glam::{DVec3, Vec3}};
@@ -173,8 +173,8 @@ impl Hull {
         Ok(self)
     }
 
-    /// An address that two hulls have in common exactly when they share their data, whatever their rounding; only
-    /// good while both live. It differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two hulls have in common exactly when they share their data, whatever their rounding; valid only
+    /// while both live. It differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
@@ -187,22 +187,22 @@ impl Hull {
         self.radius
     }
 
-    /// Radius of a sphere about [`Hull::center`] that holds the shape, in metres, rounded up. At least 1e-6 m: that
-    /// is also a point's.
+    /// Radius of a sphere about [`Hull::center`] that contains the shape, in metres, rounded up. At least 1e-6 m, even
+    /// for a point.
     #[inline]
     pub fn outer_radius(&self) -> f32 {
         grown(self.data.outer_radius, self.radius)
     }
 
-    /// Radius of a sphere about [`Hull::center`] that lies inside the shape, in metres, rounded down. Zero where there
-    /// is none: the centre of a shape without volume is rounded, and may lie beside it.
+    /// Radius of a sphere about [`Hull::center`] that lies inside the shape, in metres, rounded down. Zero if there is
+    /// none: the centre is rounded, and may lie beside a shape without volume.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
         round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)
     }
 
-    /// How far any vertex lies beyond the lowest vertex of any face, along that face's normal, in metres: what
-    /// merging nearly coplanar facets cost. At most 2e-6 of the size.
+    /// How far any vertex lies beyond the lowest vertex of any face, along that face's normal, in metres: the cost of
+    /// merging nearly coplanar facets. At most 2e-6 of the size.
     #[inline]
     pub fn planarity_error(&self) -> f32 {
         self.data.planarity_error
@@ -215,8 +215,8 @@ impl Hull {
         self.data.error
     }
 
-    /// The same, of points that may lie so far, in metres, outside of those it was made from. For one that nobody
-    /// shares.
+    /// Adds to the error for points that lie up to so far, in metres, outside of those it was made from. Only for a
+    /// hull whose data are not shared.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
         if let Some(data) = Arc::get_mut(&mut self.data)
             && error > 0.0
@@ -226,8 +226,8 @@ impl Hull {
         self
     }
 
-    /// The box around the posed shape, grown by `margin` metres and rounded outwards: wider than it need be by less
-    /// than a millionth of how far the vertices are from the origin. Cost: linear in the vertices, eight at a time.
+    /// The AABB of the posed shape, grown by `margin` metres and rounded outwards: too wide by less than a millionth of
+    /// the vertices' distance from the origin. Cost: linear in the vertices, eight at a time.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let grow = f64::from(margin) + f64::from(self.radius);
         around_octets(self.vertex_octets(), self.extent(), pose, grow)
@@ -235,7 +235,7 @@ impl Hull {
 }
 
 impl HullData {
-    /// The same with all that kernels load, once vertices and faces have their last order.
+    /// Adds the data that kernels load, once vertices and faces have their final order.
     fn finished(mut self) -> Self {
         self.octets = Octets::new(&self.vertices, &self.normals, &self.topology);
         self.inner_arm = self.longest_arm();

@@ -6,14 +6,14 @@ use glam::{DVec3, Vec3};
 
 /// Newell's area vector of a loop: twice the area, along the normal.
 ///
-/// About an end of the shortest edge. From far away, two corners that are closer than the distance rounds to would be
-/// one, and the direction of a long triangle on a short base would be lost.
+/// It is computed about an end of the shortest edge. About a point far away, two corners closer than f64 resolves at
+/// that distance would coincide, and the direction of a long triangle on a short base would be lost.
 pub(crate) fn area_vector(count: usize, corner: impl Fn(usize) -> Vec3) -> DVec3 {
     if count == 3 { triangle([corner(0), corner(1), corner(2)]) } else { newell(count, corner).0 }
 }
 
-/// The area vector, and the sum of the lengths of what was multiplied for it, as far as that was rounded: its
-/// rounding is a few f64::EPSILON of that.
+/// The area vector, and the sum of the products of lengths that were rounded: the rounding error of the area is a few
+/// f64::EPSILON of that sum.
 fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
     if count == 3 {
         let corners = [corner(0), corner(1), corner(2)];
@@ -33,21 +33,21 @@ fn newell(count: usize, corner: impl Fn(usize) -> Vec3) -> (DVec3, f64) {
     (sum, lengths)
 }
 
-/// The same of a triangle, right in all but its last bits however long and thin it is: a sliver's normal may be the
-/// only one that looks its way.
+/// The area vector of a triangle, right in all but its last bits however long and thin it is: a sliver's normal may be
+/// the only one in its direction.
 fn triangle([a, b, c]: [Vec3; 3]) -> DVec3 {
     let (u, u_lost) = difference(b, a);
     let (v, v_lost) = difference(c, a);
     let low = |value: DVec3| DVec3::new(halves(value.x).1, halves(value.y).1, halves(value.z).1);
     if u_lost.abs() + v_lost.abs() + low(u).abs() + low(v).abs() == DVec3::ZERO {
-        // All products are exact. Where corners are no more than a few times as far away as they are apart, that is so;
-        // the bits are those below, and a ray on a mesh takes 150 instructions less.
+        // All products are exact, as they are where corners are no more than a few times as far from the origin as from
+        // each other. The result has the same bits as below, and a ray against a mesh takes 150 instructions less.
         return u.cross(v) + DVec3::ZERO;
     }
     exactly([u, u_lost], [v, v_lost])
 }
 
-/// What may have lost something.
+/// The same where a difference or a product may have been rounded.
 #[inline(never)]
 fn exactly([u, u_lost]: [DVec3; 2], [v, v_lost]: [DVec3; 2]) -> DVec3 {
     let (ux, uy, uz) = (u.x, u.y, u.z);
@@ -57,11 +57,11 @@ fn exactly([u, u_lost]: [DVec3; 2], [v, v_lost]: [DVec3; 2]) -> DVec3 {
         product_difference(uz, vx, ux, vz),
         product_difference(ux, vy, uy, vx),
     );
-    // What the differences lost matters only where coordinates are a billion times apart.
+    // The rounding of the differences matters only where coordinates differ by a factor of a billion.
     area + (u_lost.cross(v) + u.cross(v_lost))
 }
 
-/// A difference and what rounding took from it, exactly (Knuth, "The art of computer programming", vol. 2, 4.2.2).
+/// A difference and its exact rounding error (Knuth, "The art of computer programming", vol. 2, 4.2.2).
 fn difference(to: Vec3, from: Vec3) -> (DVec3, DVec3) {
     let (to, from) = (to.as_dvec3(), -from.as_dvec3());
     let sum = to + from;
@@ -69,16 +69,16 @@ fn difference(to: Vec3, from: Vec3) -> (DVec3, DVec3) {
     (sum, (to - (sum - part)) + (from - part))
 }
 
-/// Unit vector along a loop's area. Where that vanishes even in f64 it is x.
+/// Unit vector along a loop's area; x if the area vanishes even in f64.
 pub(crate) fn unit(area: DVec3) -> DVec3 {
-    // Scaled first: the squares of a 1e-90 area would underflow.
+    // Scaled first, as the squares of an area of 1e-90 would underflow.
     let largest = area.abs().max_element();
     if largest > 0.0 { (area / largest).normalize() } else { DVec3::X }
 }
 
-/// Whether a loop's area, as computed in f64 from any of its corners, may be no more than rounding.
+/// Whether a loop's area, computed in f64 from any of its corners, may be mere rounding.
 ///
-/// Only where corners differ by less than f64 resolves next to their distance from others.
+/// That is so only if some corners differ by less than f64 resolves relative to their distance from others.
 pub(super) fn is_noise(count: usize, corner: impl Fn(usize) -> Vec3) -> bool {
     (0..count).any(|start| {
         let (area, lengths) = newell(count, |i| corner((start + i) % count));
@@ -90,7 +90,7 @@ fn is_lost(area: DVec3, lengths: f64) -> bool {
     area.length() <= 1e-13 * lengths
 }
 
-/// Squared lengths and places of a loop's edges, the longest first.
+/// Squared lengths and indices of a loop's edges, the longest first.
 fn longest_edges(count: usize, corner: impl Fn(usize) -> Vec3) -> Vec<(f64, usize)> {
     let squared = |i: usize| (corner((i + 1) % count).as_dvec3() - corner(i).as_dvec3()).length_squared();
     let mut edges: Vec<(f64, usize)> = (0..count).map(|i| (squared(i), i)).collect();
@@ -98,10 +98,10 @@ fn longest_edges(count: usize, corner: impl Fn(usize) -> Vec3) -> Vec<(f64, usiz
     edges
 }
 
-/// Areas and unit normals of the faces of a hull, given the faces across their edges.
+/// Areas and unit normals of the faces of a hull, given their neighbours.
 ///
-/// A face whose area is noise lies along its longest edge, up to rounding, and so in the plane of the face beyond: it
-/// takes that one's normal.
+/// A face whose area is noise lies on its longest edge up to rounding, and so in the plane of the face beyond that
+/// edge: it takes that face's normal.
 pub(super) fn areas_and_normals(
     points: &[Vec3],
     faces: &Loops,
@@ -126,7 +126,7 @@ pub(super) fn areas_and_normals(
         unknown.retain(|&face| {
             let (around, across) = (faces.get(face), &neighbours[faces.places(face)]);
             let edges = longest_edges(around.len(), |i| points[around[i] as usize]);
-            // What lies beyond a short edge may look anywhere.
+            // A face beyond a short edge may face anywhere.
             let long = edges.first().map_or(0.0, |edge| edge.0 * 0.25);
             let beyond = edges
                 .into_iter()
@@ -147,7 +147,7 @@ pub(super) fn areas_and_normals(
 
 /// For each corner of each face, the face across the edge that starts there.
 pub(super) fn neighbours(faces: &Loops) -> Vec<u32> {
-    // By one number each, which is compared at once: the edge, and where it starts. There are less than 2^16 points.
+    // Edge and start packed into one number, which is compared at once; there are fewer than 2^16 points.
     let (mut sides, mut face_of) = (Vec::with_capacity(faces.corners().len()), Vec::new());
     for (face, around) in (0..).zip(faces.iter()) {
         let next = around.iter().skip(1).chain(around.first());
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn a_sliver_has_the_normal_that_integers_give() {
-        // In steps of 2^-45: one corner next to the origin, so that differences have more digits than f32.
+        // In steps of 2^-45, with one corner next to the origin, so that differences have more digits than f32.
         let (long, near) = (1_i128 << 45, [12_345_677_i128, -2_345_679, 3_456_789]);
         for (b, c) in [
             ([long, long / 2, -long], [long + (1 << 22), long / 2 + (1 << 23), -long + (1 << 24)]),
@@ -200,7 +200,7 @@ mod tests {
             (bits >> 33) % below
         };
         for round in 0..20_000_u64 {
-            // Corners whose places have more and more digits between them, down to where the difference is rounded.
+            // Corners whose differences have more and more digits, up to where they are rounded.
             let mut part = || {
                 let (value, place) = (next(1 << 24) as f32 - 8_388_608.0, next(1 + round % 40) as f32);
                 value * place.exp2() * 1e-9

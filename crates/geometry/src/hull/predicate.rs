@@ -1,4 +1,4 @@
-//! Exact questions about points in space: the signs of determinants of their coordinates.
+//! Exact predicates for points in space: the signs of determinants of their coordinates.
 //!
 //! Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates" (1997). Exact for all
 //! finite f32: products of three of them neither overflow nor underflow in f64.
@@ -13,7 +13,7 @@ pub(super) fn outside(points: &[Vec3], [a, b, c]: [u32; 3], d: u32) -> f64 {
         let v = points[i as usize].as_dvec3();
         Coord3D { x: v.x, y: v.y, z: v.z }
     };
-    // `robust` calls the side from which a, b, c run clockwise the positive one.
+    // In `robust` the positive side is the one from which a, b, c run clockwise.
     -orient3d(coord(a), coord(b), coord(c), coord(d))
 }
 
@@ -42,9 +42,9 @@ pub(super) fn affine_basis(points: &[Vec3]) -> Result<[u32; 4], u8> {
     Ok([0, 1, third, fourth])
 }
 
-/// Hull of coplanar points, turning as `triangle` does, by Andrew's monotone chain in a projection.
+/// Hull of coplanar points, with the orientation of `triangle`, by Andrew's monotone chain in a projection.
 pub(super) fn planar_hull(points: &[Vec3], in_plane: &[u32], triangle: [u32; 3]) -> Vec<u32> {
-    // Any projection that does not flatten the plane keeps the combinatorics.
+    // Any axis projection that does not flatten the plane will do.
     let (axis, sense) = (0..3)
         .map(|axis| (axis, turn_seen_along(points, axis, triangle)))
         .find(|&(_, turn)| turn != 0.0)
@@ -76,12 +76,12 @@ pub(super) fn planar_hull(points: &[Vec3], in_plane: &[u32], triangle: [u32; 3])
     hull
 }
 
-/// How far the rounded height of a point above a triangle can be trusted.
+/// The rounding error of a point's height above a triangle.
 ///
-/// With u, v the triangle's sides and w the arm to the point, (u x v) . w in f64 is within 8 units of
-/// f64::EPSILON * |u| |v| |w| of the truth: each difference, product and sum adds half a unit of at most twice that
-/// product. Twice as much is taken. On a lattice of up to 65,536 steps every intermediate is a whole number of steps
-/// below 2^53, and the height is exact.
+/// With u, v the triangle's sides and w the arm to the point, (u x v) . w in f64 is within 8 units of f64::EPSILON *
+/// |u| |v| |w| of the true value: each difference, product and sum adds half a unit of at most twice that product. The
+/// bound here is twice as large. On a lattice of up to 65,536 steps every intermediate is a whole number of steps below
+/// 2^53, and the height is exact.
 #[derive(Clone, Copy)]
 pub(super) struct Filter {
     per_area: f64,
@@ -106,14 +106,14 @@ impl Filter {
         self.per_area == 0.0
     }
 
-    /// A bound on the rounding of any height above a triangle with these two sides, times its normal's length.
+    /// A bound on the rounding error of any height above a triangle with these two sides, times its normal's length.
     #[inline]
     pub(super) fn slack(self, u: DVec3, v: DVec3) -> f64 {
         self.per_area * u.length() * v.length()
     }
 }
 
-/// The power of two that the lowest bit of a finite number stands for; of zero, more than any.
+/// The exponent of the lowest set bit of a finite number; for zero, more than any.
 fn lowest_bit(value: f32) -> i32 {
     let (exponent, fraction) = ((value.to_bits() >> 23 & 0xFF) as i32, value.to_bits() & 0x7F_FFFF);
     match (exponent, fraction) {

@@ -1,4 +1,4 @@
-//! What stands in for cylinders and cones: prisms and pyramids over regular polygons.
+//! Prisms and pyramids over regular polygons, to approximate cylinders and cones.
 
 use super::{Hull, HullError};
 use crate::ring;
@@ -7,14 +7,13 @@ use core::ops::RangeInclusive;
 use glam::{DVec2, Vec3};
 
 impl Hull {
-    /// An upright prism over a regular polygon, about its own origin, along y as a capsule is: what stands in for a
-    /// cylinder. `radius`, in metres, is that of its corners, one of which lies on the side of x.
+    /// An upright prism over a regular polygon that approximates a cylinder. It is centred on its origin, with its axis
+    /// along y like a capsule's. `radius`, in metres, is that of its corners, one of which points towards +x.
     ///
     /// It lies inside a cylinder of that radius, by at most radius (1 - cos(pi / sides)): 2 % for 16 sides, 0.5 % for
-    /// 32 sides. More sides cost more: contacts of such hulls grow with the corners of the faces that meet, the memory
-    /// with the sides. On ground that is not flat each triangle below is asked for itself: bodies that roll over hills
-    /// in large numbers do well with 8 to 12 sides, or as a capsule. The axle of a wheel is y as well: the body is
-    /// turned.
+    /// 32 sides. More sides cost more: the time of contacts grows with the corners of the faces that meet, memory with
+    /// the sides. On ground that is not flat each triangle below is tested separately: many bodies that roll over hills
+    /// should have 8 to 12 sides, or be capsules. For a wheel, whose axle is y as well, turn the body.
     ///
     /// ```
     /// use asunder_geometry::{Hull, HullError, glam::DVec3};
@@ -26,8 +25,8 @@ impl Hull {
     /// ```
     ///
     /// # Errors
-    /// Fewer than 3 sides, or more than 128; a half height or a radius that is not positive and finite; what
-    /// [`Hull::from_points`] refuses about the corners.
+    /// Fewer than 3 sides, or more than 128; a half height or a radius that is not positive and finite; any error of
+    /// [`Hull::from_points`] for the corners.
     pub fn prism(half_height: f32, radius: f32, sides: usize) -> Result<Self, HullError> {
         let base = base(half_height, radius, (sides, 3..=MAX_HULL_VERTICES / 2))?;
         let points: Vec<Vec3> =
@@ -35,9 +34,9 @@ impl Hull {
         Self::from_points(&points)
     }
 
-    /// An upright pyramid over a regular polygon: what stands in for a cone. Its base is at y = -`half_height`, its
-    /// apex on the y axis at `half_height`; `radius`, in metres, is that of the base's corners, one of which lies on
-    /// the side of x.
+    /// An upright pyramid over a regular polygon that approximates a cone. Its base is at y = -`half_height`, its apex
+    /// on the y axis at `half_height`; `radius`, in metres, is that of the base's corners, one of which points towards
+    /// +x.
     ///
     /// ```
     /// use asunder_geometry::{Hull, HullError, glam::DVec3};
@@ -49,7 +48,7 @@ impl Hull {
     /// ```
     ///
     /// # Errors
-    /// Fewer than 3 sides, or more than 255; else as [`Hull::prism`].
+    /// Fewer than 3 sides, or more than 255; otherwise as [`Hull::prism`].
     pub fn pyramid(half_height: f32, radius: f32, sides: usize) -> Result<Self, HullError> {
         let base = base(half_height, radius, (sides, 3..=MAX_HULL_VERTICES - 1))?;
         let mut points: Vec<Vec3> = base.map(|corner| at(corner, -half_height)).collect();
@@ -58,7 +57,7 @@ impl Hull {
     }
 }
 
-/// The corners of a base, once its numbers are found to be ones.
+/// The corners of a base, if the parameters are valid.
 fn base(
     half_height: f32,
     radius: f32,
@@ -85,13 +84,12 @@ mod tests {
 
     const SHARES: [f32; 5] = [1e-3, 0.1, 1.0, 10.0, 1e3];
 
-    /// The area of a regular polygon over that of its circle's square.
+    /// The area of a regular polygon over its squared radius.
     fn area(sides: usize) -> f64 {
         0.5 * sides as f64 * libm::sin(core::f64::consts::TAU / sides as f64)
     }
 
-    /// Makes hulls of a radius of 1 with these numbers of sides, thin and thick; of so many corners and faces, none
-    /// lost.
+    /// Makes hulls of radius 1 with these numbers of sides, thin and thick, and checks that no corner or face is lost.
     fn made(
         sides: RangeInclusive<usize>,
         make: fn(f32, f32, usize) -> Result<Hull, HullError>,

@@ -1,18 +1,19 @@
-//! Exact facets of a convex hull, point by point, the furthest first.
+//! Exact facets of a convex hull by quickhull, which adds the furthest point first.
 //!
 //! ```text
-//! 1 a tetrahedron of far-apart points; every other point waits at the facet that it lies furthest outside of
+//! 1 start with a tetrahedron of far-apart points; every other point waits at (joins the outside set of) the facet that
+//!   it lies furthest outside of
 //! 2 of all waiting points take the one that is furthest from the plane of its facet
 //! 3 the facets that it lies strictly outside of are connected: find them from this one, neighbour by neighbour
-//! 4 their border is the horizon: join each edge of it to the point, and drop what was seen
-//! 5 the points that waited at what was dropped wait at one of the new facets, or are inside for good
-//! 6 repeat 2 until nobody waits, or nobody may be added; then join triangles of one plane into facets
+//! 4 their border is the horizon: join each edge of it to the point, and drop the facets seen from the point
+//! 5 points that waited at dropped facets now wait at one of the new facets, or are inside for good
+//! 6 repeat from 2 until no point waits or none may be added; then join coplanar triangles into facets
 //! ```
 //! Barber, Dobkin and Huhdanpaa, "The quickhull algorithm for convex hulls" (1996), over exact determinants (Shewchuk
-//! 1997). A point in a facet's plane counts as not outside of it, so that the new triangles at the horizon are never
-//! flat: a point on the line of a horizon edge would lie in the plane of the facet that it is strictly outside of.
-//! "Furthest" is the only rounded number, and decides nothing but the order; where the search stops early, it makes
-//! what is left out small. Cost: about n log n.
+//! 1997). A point in a facet's plane does not count as outside of it. So new triangles at the horizon are never
+//! degenerate: a point on the line of a horizon edge would lie in the plane of a facet that it is strictly outside of.
+//! Only "furthest" is a rounded number. It decides nothing but the order and, where the search stops early, keeps what
+//! is left out small. Cost: about n log n.
 
 use super::HullError;
 use super::loops::Loops;
@@ -23,7 +24,7 @@ use core::cmp::Reverse;
 use glam::{DVec3, Vec3};
 use std::collections::BinaryHeap;
 
-/// No point, no triangle.
+/// Stands for no point or no triangle.
 const NONE: u32 = u32::MAX;
 
 /// A triangle of the growing hull.
@@ -33,16 +34,16 @@ struct Triangle {
     corners: [u32; 3],
     /// The triangle across the edge from corner `i` to the next.
     neighbours: [u32; 3],
-    /// First corner, and the normal with twice the area as its length.
+    /// The first corner, and the normal, whose length is twice the area.
     origin: DVec3,
     normal: DVec3,
     /// One over the normal's length, or zero if that is too small.
     per_length: f64,
-    /// How far a rounded height times the normal's length can be from the truth.
+    /// The rounding error of a height times the normal's length.
     slack: f64,
-    /// The first of the points strictly outside of it; `waits_after` names the next.
+    /// Head of the list of points that wait here, linked by `waits_after`.
     first_waiting: u32,
-    /// Seen by a point that was added. It stays in the list, so that indices stay.
+    /// Seen by a point that was added. It stays in the list, so that indices stay valid.
     is_dropped: bool,
 }
 
@@ -54,13 +55,13 @@ impl Triangle {
     }
 }
 
-/// What "furthest" means.
+/// How "furthest" is measured.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Measure {
     /// Height above the highest plane that a point is outside of: cheap, and all that the exact hull needs.
     Height,
-    /// Distance to the nearest of the triangles that it is outside of. At the rim of a thin disc, that is what a
-    /// search that stops early leaves out; the height hardly shows it.
+    /// Distance to the nearest of the triangles that it is outside of. This measures what an early stop leaves out even
+    /// at the rim of a thin disc, where heights are small.
     Distance,
 }
 
@@ -70,11 +71,11 @@ pub(super) struct Growth<'a> {
     points: &'a [Vec3],
     filter: Filter,
     measure: Measure,
-    /// How many points it has been made of.
+    /// How many points it has been made from.
     count: usize,
     triangles: Vec<Triangle>,
     waits_after: Vec<u32>,
-    /// Furthest waiting point of each triangle, as the bits of its distance, the point, the triangle.
+    /// The furthest waiting point of each triangle, keyed by the bits of its distance, the point, and the triangle.
     furthest: BinaryHeap<(u64, Reverse<u32>, Reverse<u32>)>,
     /// Scratch: the horizon edge that starts at a point.
     border_from: Vec<u32>,
@@ -90,7 +91,7 @@ pub(super) fn hull_facets(points: &[Vec3]) -> Result<Loops, HullError> {
 }
 
 impl<'a> Growth<'a> {
-    /// The first tetrahedron. The points must be finite and no two the same.
+    /// Makes the first tetrahedron. The points must be finite and no two the same.
     pub(super) fn start(points: &'a [Vec3], measure: Measure) -> Result<Self, HullError> {
         let basis = match far_apart(points) {
             Some(basis) => basis,
@@ -101,14 +102,14 @@ impl<'a> Growth<'a> {
             filter: Filter::of(points),
             measure,
             count: 4,
-            // A point joins some six.
+            // A vertex has some six triangles on average.
             triangles: Vec::with_capacity(6 * points.len().min(MAX_HULL_VERTICES)),
             waits_after: vec![NONE; points.len()],
             furthest: BinaryHeap::new(),
             border_from: vec![NONE; points.len()],
         };
         let [a, b, c, d] = basis;
-        // The base is turned so that the fourth point lies inside of its plane.
+        // Orients the base so that the fourth point lies inside of its plane.
         let (b, c) = if outside(points, [a, b, c], d) < 0.0 { (b, c) } else { (c, b) };
         for (corners, neighbours) in
             [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])]
@@ -120,8 +121,8 @@ impl<'a> Growth<'a> {
         Ok(growth)
     }
 
-    /// Adds the furthest waiting point as long as `go_on` agrees, which is told how many points the hull has been
-    /// made of and how far outside the next one lies. Returns whether nobody waits any more.
+    /// Adds the furthest waiting point as long as `go_on` agrees, which is given the number of points so far and how
+    /// far outside the next one lies. Returns whether no point waits any more.
     pub(super) fn grow_while(&mut self, mut go_on: impl FnMut(usize, f64) -> bool) -> bool {
         let mut orphans: Vec<u32> = Vec::new();
         while let Some(&(distance, Reverse(apex), Reverse(first))) = self.furthest.peek() {
@@ -189,10 +190,11 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Makes each point wait at one of the newest triangles that it is strictly outside of; the rest are inside for
+    /// Assigns each point to one of the newest triangles that it is strictly outside of; the others are inside for
     /// good.
     ///
-    /// Any of them would do for the exact hull. The best place makes the order, and so what an early stop leaves out.
+    /// For the exact hull any such triangle would do. The choice affects the order, and so what an early stop leaves
+    /// out.
     fn distribute(&mut self, waiting: &[u32], first_new: usize) {
         let mut furthest = vec![(f64::NEG_INFINITY, NONE); self.triangles.len() - first_new];
         for &point in waiting {
@@ -207,7 +209,7 @@ impl<'a> Growth<'a> {
         }
         for (index, (distance, point)) in (first_new as u32..).zip(furthest) {
             if point != NONE {
-                // The bits of numbers that are not negative are in their order.
+                // The bits of non-negative numbers have their order.
                 self.furthest.push((distance.max(0.0).to_bits(), Reverse(point), Reverse(index)));
             }
         }
@@ -241,7 +243,7 @@ impl<'a> Growth<'a> {
         super::distance::to_triangle(place.as_dvec3(), corners)
     }
 
-    /// The triangles that `apex` lies strictly outside of, found from one of them; they count as dropped from now on.
+    /// Finds the triangles that `apex` lies strictly outside of, starting from one of them, and marks them as dropped.
     fn seen_from(&mut self, first: u32, apex: u32) -> Vec<u32> {
         self.triangles[first as usize].is_dropped = true;
         let mut seen = vec![first];
@@ -260,7 +262,7 @@ impl<'a> Growth<'a> {
         seen
     }
 
-    /// The edges between what is seen and what is not, in order around: start, end, and the triangle beyond.
+    /// The horizon, the edges between triangles that are seen and others, in order around: start, end, triangle beyond.
     fn horizon(&mut self, seen: &[u32]) -> Vec<(u32, u32, u32)> {
         let mut edges = Vec::new();
         for &index in seen {
@@ -281,7 +283,7 @@ impl<'a> Growth<'a> {
         around
     }
 
-    /// Joins each edge of the horizon to the apex, and ties the new triangles to each other and to what lies beyond.
+    /// Joins each edge of the horizon to the apex, and links the new triangles to each other and to those beyond.
     fn join(&mut self, horizon: &[(u32, u32, u32)], apex: u32) {
         let (first, count) = (self.triangles.len() as u32, horizon.len() as u32);
         for (i, &(from, to, beyond)) in (0..).zip(horizon) {
@@ -294,7 +296,7 @@ impl<'a> Growth<'a> {
         }
     }
 
-    /// Joins triangles of one plane, exactly, and puts the facets in canonical order.
+    /// Joins exactly coplanar triangles, and puts the facets in canonical order.
     pub(super) fn facets(&self) -> Loops {
         let mut is_taken: Vec<bool> = self.triangles.iter().map(|triangle| triangle.is_dropped).collect();
         let mut facets = Loops::with_room(is_taken.iter().filter(|is_taken| !**is_taken).count());
@@ -342,10 +344,10 @@ impl<'a> Growth<'a> {
         )
     }
 
-    /// An upper bound on how far outside the hull, as it is now, any of the points lies, in metres.
+    /// An upper bound on how far outside the current hull any of the points lies, in metres.
     ///
-    /// Every point outside waits at a triangle. From there it walks from neighbour to neighbour as long as they are
-    /// nearer; the distance to any triangle is a bound.
+    /// Every point outside waits at a triangle. From there a walk goes on to neighbours as long as they are nearer; the
+    /// distance to any triangle is a bound.
     pub(super) fn outlying(&self) -> f64 {
         let mut most = 0.0_f64;
         for (index, triangle) in
@@ -360,7 +362,8 @@ impl<'a> Growth<'a> {
         most
     }
 
-    /// Distance from a point to the nearest triangle that can be reached downhill, or anything not above `enough`.
+    /// Distance from a point to the nearest triangle that a walk to ever nearer neighbours reaches, or any distance up
+    /// to `enough`.
     fn distance_from(&self, point: u32, start: usize, enough: f64) -> f64 {
         let to = |triangle| self.distance_to(triangle, self.points[point as usize]);
         let (mut at, mut least) = (start, to(start));
@@ -379,9 +382,10 @@ impl<'a> Growth<'a> {
     }
 }
 
-/// Four points that span space, far from each other; nothing where rounding cannot tell, or there are none.
+/// Four points that span space, far from each other; `None` if there are none, or rounding hides them.
 ///
-/// The ends of the longest side of the box around all, what is furthest from their line, and furthest from that plane.
+/// The ends of the longest side of the box around all points, the point furthest from their line, and the one furthest
+/// from that plane.
 fn far_apart(points: &[Vec3]) -> Option<[u32; 4]> {
     let at = |i: u32| points[i as usize].as_dvec3();
     let all = 0..points.len() as u32;

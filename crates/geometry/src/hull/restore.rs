@@ -1,9 +1,9 @@
-//! A hull from what is stored of it: vertices, face loops, and the error that simplification left.
+//! Restores a hull from what is stored of it: vertices, face loops, and the error that simplification left.
 //!
-//! The builder fed with its own vertices might merge other facets, because what is one flat face depends on points that
-//! are no vertices. So the loops are stored, and believed only as far as they are checked: closed, of Euler's formula,
-//! convex up to what merging may cost. All else is worked out again, by the code that worked it out first and from
-//! the same order of vertices and faces: the hull comes back equal in every bit.
+//! Rebuilding a hull from its own vertices might merge other facets, because what is one flat face also depends on
+//! points that are not vertices. So the loops are stored. They are not trusted, but checked: closed, Euler's formula,
+//! convex up to what merging may cost. Everything else is computed again by the same code and in the same order of
+//! vertices and faces, so the restored hull is equal in every bit.
 
 use super::build::Made;
 use super::check::Examiner;
@@ -15,20 +15,20 @@ use crate::tolerance::{MAX_HULL_VERTICES, MAX_RADIUS, MERGED_PLANARITY};
 use glam::Vec3;
 use std::collections::BTreeSet;
 
-/// Why stored data are no hull.
+/// Why stored data do not make a hull.
 #[derive(Debug, PartialEq)]
 pub(crate) enum StoredHullError {
     Points(HullError),
     Faces(HullFault),
     /// Two vertices are the same point.
     Repeated,
-    /// A face has too few corners, one twice, or one that is no vertex.
+    /// A face has too few corners, the same one twice, or one that is no vertex.
     BadLoop {
         face: usize,
     },
-    /// The faces close no surface.
+    /// The faces do not form a closed surface.
     Open,
-    /// A vertex lies so far beyond a face, in metres, that no merging would have left it there.
+    /// A vertex lies `beyond` metres beyond a face, further than merging could have left it.
     NotConvex {
         beyond: f32,
     },
@@ -36,7 +36,7 @@ pub(crate) enum StoredHullError {
     BadError {
         value: f32,
     },
-    /// Vertices or faces are not in the order, or not those, that such a hull has.
+    /// Vertices or faces differ from those of such a hull, or are in another order.
     OutOfOrder,
 }
 
@@ -76,7 +76,7 @@ impl Hull {
         (0..topology.face_count()).map(around).collect()
     }
 
-    /// The hull, without rounding, that these were stored of.
+    /// The hull, without rounding, of which these were stored.
     pub(crate) fn restored(
         vertices: &[Vec3],
         faces: Vec<Vec<u16>>,
@@ -92,7 +92,7 @@ impl Hull {
         if !(0.0..=2.0 * MAX_RADIUS).contains(&error) {
             return Err(StoredHullError::BadError { value: error });
         }
-        // Two faces, back to back, are a flat hull, or one with a volume that is no more than rounding.
+        // Two faces, back to back: a flat hull, or one whose volume is mere rounding.
         let low = if faces.len() > 2 { None } else { Some(Self::of_any_dimension(vertices)?) };
         let hull = match low {
             Some(low) if low.dimension() < 2 => low,
@@ -108,7 +108,7 @@ impl Hull {
         }
     }
 
-    /// A flat hull is exact anyway, save that it may turn either way, which its first corners show.
+    /// A flat hull is exact. Only its orientation is open, which its first corners show.
     fn restored_flat(cloud: &Cloud) -> Result<Self, StoredHullError> {
         let place =
             |vertex: u32| cloud.source.iter().position(|&source| source == vertex).unwrap_or(0) as u32;
@@ -145,7 +145,7 @@ impl Hull {
     }
 }
 
-/// Whether loops of vertices close a surface like that of a ball: each edge is run along once each way.
+/// Whether loops of vertices form a closed surface like a sphere: each edge is used once in each direction.
 fn check_surface(vertices: usize, faces: &[Vec<u16>]) -> Result<(), StoredHullError> {
     let mut sides = BTreeSet::new();
     let mut is_visited = vec![false; vertices];

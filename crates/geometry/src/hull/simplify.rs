@@ -1,4 +1,4 @@
-//! Hulls with as few vertices as asked for.
+//! Hulls with a limited number of vertices.
 
 use super::cloud::Cloud;
 use super::{Hull, HullError};
@@ -6,12 +6,11 @@ use crate::tolerance::MAX_HULL_VERTICES;
 use glam::Vec3;
 
 impl Hull {
-    /// A hull of at most `max_vertices` of up to 65,535 points, 4 to 256, that leaves as little outside as taking
-    /// the furthest point next can do. Cost: about n log n.
+    /// A hull of up to 65,535 points with at most `max_vertices` (4 to 256), chosen greedily by always taking the
+    /// furthest point next. Cost: about n log n.
     ///
-    /// Its vertices are points of the cloud, bit for bit, so it lies inside the true hull; [`Hull::error`] bounds how
-    /// far outside any of the points is. Where [`Hull::from_points`] needs no more vertices than that, this is the
-    /// same hull.
+    /// Its vertices are given points, bit for bit, so it lies inside the true hull; [`Hull::error`] bounds how far
+    /// outside any of the points is. If [`Hull::from_points`] needs no more vertices than that, this is the same hull.
     ///
     /// ```
     /// use asunder_geometry::{Hull, glam::Vec3};
@@ -24,7 +23,7 @@ impl Hull {
     /// ```
     ///
     /// # Errors
-    /// As [`Hull::from_points`], and a number of vertices that is not 4 to 256; never too many vertices.
+    /// As [`Hull::from_points`], except too many vertices; and a `max_vertices` that is not 4 to 256.
     pub fn simplify(points: &[Vec3], max_vertices: usize) -> Result<Self, HullError> {
         if !(4..=MAX_HULL_VERTICES).contains(&max_vertices) {
             return Err(HullError::VertexLimit { max_vertices });

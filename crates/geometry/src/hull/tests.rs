@@ -8,7 +8,7 @@ use super::*;
 use crate::tolerance::{COPLANAR, MIN_RADIUS};
 use clouds::{KINDS, Random, cloud, nasty};
 
-/// Passes its own check, and says no more of itself than it may.
+/// Checks that the hull passes its own check, and that its bounds hold.
 fn examine(points: &[Vec3], hull: &Hull) {
     if let Err(fault) = hull.check(points) {
         panic!("{fault}: {hull:?} of {points:?}");
@@ -51,7 +51,7 @@ fn lattices_merge_into_a_cuboid() {
 
 #[test]
 fn faces_that_rounding_split_are_merged_again() {
-    // A turned lattice: its faces are flat up to f32 rounding only, and its inner face points poke out.
+    // A rotated lattice: its faces are flat only up to f32 rounding, and inner points of faces stick out.
     let pose = Pose3::new(Vec3::ZERO, glam::Quat::from_xyzw(0.1, 0.7, -0.3, 0.6)).unwrap();
     let turned: Vec<Vec3> = (0..64)
         .map(|i| pose.transform(Vec3::new((i % 4) as f32, (i / 4 % 4) as f32, (i / 16) as f32)).as_vec3())
@@ -74,8 +74,8 @@ fn needles_plates_and_thin_clouds_are_valid() {
     }
 }
 
-/// The area of a loop that is no wider than rounding depends on the corner that it is worked out from: there the check
-/// starts where the builder does.
+/// The area of a loop no wider than rounding depends on the corner from which it is computed, so the check must start
+/// at the same corner as the builder.
 #[test]
 fn what_is_thinner_than_rounding_is_valid_in_any_order() {
     let points = [
@@ -253,7 +253,7 @@ fn the_error_of_a_simplified_hull_is_a_bound_and_a_tight_one() {
 fn more_vertices_leave_less_outside() {
     let points = cloud(65_535, 77, |v| v.normalize_or(Vec3::X));
     let error = |most| Hull::simplify(&points, most).unwrap().error();
-    // A polyhedron of n vertices misses a unit sphere by about 4.8 / n at best, where its facets are alike.
+    // A polyhedron of n vertices differs from a unit sphere by about 4.8 / n at best, if its facets are alike.
     for most in [16_u8, 64, 255] {
         let best = 4.8 / f32::from(most);
         assert!(error(most.into()) < 2.5 * best, "{most} vertices: {}", error(most.into()));
@@ -363,7 +363,7 @@ fn balls_along_the_arm_stay_inside_and_of_what_is_long_it_is_long() {
                 [case % 4];
         let shift = Vec3::new(number(), number(), number()) * [0.0, 1.0, 100.0][case % 3];
         let mut corner = |i: usize| match case % 8 {
-            // Boxes, whose edges run along their faces but for rounding.
+            // Boxes, whose edges are parallel to their faces up to rounding.
             0..4 => Vec3::new(1.0 - 2.0 * (i & 1) as f32, 1.0 - (i & 2) as f32, 1.0 - 0.5 * (i & 4) as f32),
             _ => Vec3::new(number(), number(), number()),
         };

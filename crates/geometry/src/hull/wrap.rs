@@ -1,14 +1,14 @@
 //! Exact facets of a convex hull by gift wrapping.
 //!
 //! ```text
-//! 1 find a hull edge: a line that a vertical plane through the least point supports
-//! 2 turn a plane about an unwrapped directed edge until no point lies outside it: that plane bears a facet
+//! 1 find a hull edge, in a vertical supporting plane through the least point
+//! 2 turn a plane about an unwrapped directed edge until no point lies outside it: that plane contains a facet
 //! 3 take *all* points in that plane and form their planar hull: the facet, however many corners it has
-//! 4 its edges, run the other way, are to be wrapped unless their facet is known; repeat 2 until none is left
+//! 4 its edges, reversed, are to be wrapped unless their facet is known; repeat from 2 until none is left
 //! ```
 //! Chand and Kapur, "An algorithm for convex polytopes" (1970). Every decision is the sign of an exact determinant
-//! (Shewchuk 1997), so coplanar and collinear points need no tolerance and no case of their own. Cost: points times
-//! facets. It is slow, and obviously right: the oracle of the real builder, whose facets must be the same.
+//! (Shewchuk 1997), so coplanar and collinear points need neither a tolerance nor special cases. Cost: points times
+//! facets. It is slow but obviously right: the oracle of the real builder, whose facets must be the same.
 
 use super::HullError;
 use super::loops::Loops;
@@ -51,8 +51,8 @@ fn order(points: &[Vec3], a: u32, b: u32) -> core::cmp::Ordering {
 fn first_edge(points: &[Vec3]) -> (u32, u32) {
     let all = 0..points.len() as u32;
     let least = all.clone().min_by(|&a, &b| order(points, a, b)).unwrap_or(0);
-    // Seen from above, the least point is a corner of the outline. Find the vertical plane through it that has
-    // every point to its left or in it.
+    // Seen from above, the least point is a corner of the outline. Finds the vertical plane through it that has every
+    // point on or to the left of it.
     let seen_apart = |i: u32| points[i as usize].truncate() != points[least as usize].truncate();
     let mut ahead = None;
     for i in all.clone().filter(|&i| seen_apart(i)) {
@@ -66,11 +66,11 @@ fn first_edge(points: &[Vec3]) -> (u32, u32) {
         all.filter(|&i| i == least || turn_seen_along(points, 2, [least, ahead, i]) == 0.0).collect();
     let Some(&third) = in_plane.iter().find(|&&i| i != least && !is_collinear(points, [least, ahead, i]))
     else {
-        // All of them on one line: it is an edge, from end to end.
+        // All points in the plane are collinear: they form an edge, from end to end.
         let end = in_plane.iter().copied().max_by(|&a, &b| order(points, a, b)).unwrap_or(ahead);
         return (least, end);
     };
-    // A whole facet stands upright: any edge of its outline will do.
+    // The plane contains a whole facet: any edge of its outline will do.
     let outline = planar_hull(points, &in_plane, [least, ahead, third]);
     (outline[0], outline[1])
 }
@@ -85,7 +85,7 @@ fn facet_beside(points: &[Vec3], p: u32, q: u32) -> Vec<u32> {
             _ => third = Some(i),
         }
     }
-    // The points span space, so some point is off the line.
+    // Some point is off the line, as the points span space.
     let triangle = [p, q, third.unwrap_or(p)];
     let in_plane: Vec<u32> =
         (0..points.len() as u32).filter(|&i| outside(points, triangle, i) == 0.0).collect();

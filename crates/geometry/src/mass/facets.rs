@@ -1,11 +1,11 @@
 //! The triangles of the true surface.
 //!
-//! A face may be several facets that were merged, flat up to rounding only. Of a thin hull that rounding may be most
-//! of the volume, so its corners are joined again as their hull has them:
+//! A face may be several merged facets, flat only up to rounding. In a thin hull that rounding may be most of the
+//! volume, so the facets are restored from the corners, as in their convex hull:
 //!
 //! ```text
 //! facets(chain of corners, from edge first-last):
-//!     apex = the corner above which, seen through the edge, no other lies      exact; of equals, the one nearest the middle
+//!     apex = the corner whose triangle with the edge has no other above it (exact; of equals, that nearest the middle)
 //!     visit (first, apex, last); then facets(first ..= apex) and facets(apex ..= last)
 //! ```
 
@@ -28,7 +28,7 @@ pub(super) fn each_facet(core: &Core3<'_>, mut visit: impl FnMut([usize; 3])) {
     }
 }
 
-/// Which of the inner corners makes the outermost triangle with the ends.
+/// The inner corner that makes the outermost triangle with the ends.
 fn apex(vertices: &[Vec3], first: usize, inner: &[usize], last: usize) -> Option<usize> {
     let coord = |i: usize| {
         let v = vertices[i].as_dvec3();
@@ -36,7 +36,7 @@ fn apex(vertices: &[Vec3], first: usize, inner: &[usize], last: usize) -> Option
     };
     let off_middle = |place: usize| (2 * place).abs_diff(inner.len() - 1);
     (0..inner.len()).reduce(|best, place| {
-        // `robust` calls the side from which the three run clockwise the positive one.
+        // In `robust` the positive side is the one from which the three run clockwise.
         let outside = -orient3d(coord(first), coord(inner[best]), coord(last), coord(inner[place]));
         let is_better = outside > 0.0 || (outside == 0.0 && off_middle(place) < off_middle(best));
         if is_better { place } else { best }

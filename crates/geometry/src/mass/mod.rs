@@ -1,4 +1,4 @@
-//! Mass, centre of mass and inertia of every shape, in closed form: nothing is sampled.
+//! Mass, centre of mass and inertia of every shape, in closed form, without sampling.
 //!
 //! ```text
 //! a shape is everything within r of a convex core; split it there:
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! Each piece adds its volume, first and second moments about an inner point, so that a shape far from its own origin
-//! loses nothing; the parallel axis theorem then takes them to the centre of mass. The split is Steiner's; the moment
-//! of a sector of a ball, whose directions are a spherical polygon, becomes a sum over that polygon's arcs: Arvo,
+//! loses no accuracy; the parallel axis theorem then moves them to the centre of mass. The split is Steiner's; the
+//! moment of a sector of a ball, whose directions are a spherical polygon, is a sum over that polygon's arcs: Arvo,
 //! "Applications of irradiance tensors to the simulation of non-Lambertian phenomena" (SIGGRAPH 1995).
 
 mod facets;
@@ -44,7 +44,7 @@ pub enum MassError {
         /// What was given.
         value: f32,
     },
-    /// A half-plane or half-space, which has no end.
+    /// A half-plane or half-space, which is unbounded.
     Unbounded,
     /// A mesh, a height field or a chain, which has no inside and never moves.
     Ground,
@@ -104,11 +104,11 @@ impl Shape2 {
 impl Shape3 {
     /// Mass, centre of mass and inertia for a density in kg/m^3.
     ///
-    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones; what a
-    /// rounding adds to faces that were merged, to their [planarity error](crate::Hull::planarity_error). Points,
-    /// segments and flat shapes without rounding have no volume, so their mass is zero. A compound is the sum of its
-    /// parts: *where parts overlap, matter counts twice.* Cost: linear in the vertices and edges, save that a face
-    /// with n corners costs n log n; a few allocations.
+    /// Exact up to rounding: to about 1e-15 for compact shapes, times length over thickness for thin ones; the prisms
+    /// that a rounded hull has on merged faces are exact up to the [planarity error](crate::Hull::planarity_error).
+    /// Points, segments and flat shapes without rounding have no volume, so their mass is zero. A compound is the sum
+    /// of its parts: *where parts overlap, matter counts twice.* Cost: linear in the vertices and edges, n log n in the
+    /// corners of each face; a few allocations.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::{DVec3, Vec3}};

@@ -25,11 +25,11 @@ impl Moments {
     }
 }
 
-/// A rectangle, whose symmetry is worth keeping in every bit: the centre is its origin.
+/// A rectangle, in a form that keeps its symmetry in every bit: the centre is its origin.
 pub(super) fn of_rect(rect: &Rect, density: f64) -> MassProperties2 {
     let (h, r) = (rect.half_extents().as_dvec2(), f64::from(rect.radius()));
-    // Second moment along one axis: core and the strips beside it, the strips at its ends, and one circle in four
-    // quarters.
+    // Second moment along one axis: the core and the strips beside it, the strips at its ends, and four quarters of a
+    // circle.
     let along = |a: f64, b: f64| {
         let (a2, r2) = (a * a, r * r);
         4.0 * a * (b + r) * a2 / 3.0
@@ -41,7 +41,7 @@ pub(super) fn of_rect(rect: &Rect, density: f64) -> MassProperties2 {
     MassProperties2 { mass: density * area, center: DVec2::ZERO, inertia }
 }
 
-/// Any convex shape. A half-plane and a compound, which have no core, have no mass here.
+/// Any convex shape with a core; a half-plane or a compound, which have none, get no mass here.
 pub(super) fn of_convex(shape: &Shape2, density: f64) -> MassProperties2 {
     if let Shape2::Rect(rect) = shape {
         return of_rect(rect, density);
@@ -60,14 +60,14 @@ pub(super) fn of_convex(shape: &Shape2, density: f64) -> MassProperties2 {
         }
     }
     if moments.area <= 0.0 {
-        // Without area there are only a segment, and slivers below what f64 can tell from one.
+        // Without area: a segment, or a sliver that f64 cannot tell from one.
         let middle = vertices.iter().fold(DVec2::ZERO, |sum, &v| sum + v) / vertices.len().max(1) as f64;
         return MassProperties2 { mass: 0.0, center: center + middle, inertia: 0.0 };
     }
-    // Of a sliver the area may be no more than rounding, and the quotient anywhere.
+    // The area of a sliver may be mere rounding, and the quotient anywhere.
     let (low, high) = box_around(&vertices);
     let offset = (moments.first / moments.area).clamp(low - radius, high + radius);
-    // Never below zero, save by the rounding of this difference.
+    // Negative only by the rounding of this difference.
     let polar = (moments.polar - moments.area * offset.length_squared()).max(0.0);
     MassProperties2 { mass: density * moments.area, center: center + offset, inertia: density * polar }
 }
@@ -77,7 +77,7 @@ fn box_around(vertices: &[DVec2]) -> (DVec2, DVec2) {
     vertices.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), around)
 }
 
-/// A polygon, as triangles from the origin, which lies inside or near it.
+/// Adds a polygon, as triangles from the origin, which lies inside or near it.
 fn add_core(moments: &mut Moments, vertices: &[DVec2]) {
     for (i, &a) in vertices.iter().enumerate() {
         let b = vertices[(i + 1) % vertices.len()];
@@ -87,7 +87,7 @@ fn add_core(moments: &mut Moments, vertices: &[DVec2]) {
     }
 }
 
-/// A rectangle on each edge, a sector of a circle at each vertex.
+/// Adds a rectangle on each edge and a sector of a circle at each vertex.
 fn add_rounding(moments: &mut Moments, vertices: &[DVec2], normals: &[DVec2], r: f64) {
     if r == 0.0 {
         return;
@@ -104,7 +104,7 @@ fn add_rounding(moments: &mut Moments, vertices: &[DVec2], normals: &[DVec2], r:
     }
 }
 
-/// The directions of a sector.
+/// The directions of a circular sector.
 struct Turn {
     angle: f64,
     /// Integral of the unit vectors in it.
@@ -118,7 +118,7 @@ impl Turn {
     fn between(from: DVec2, to: DVec2) -> Self {
         let (cos, mut sin) = (from.dot(to), from.perp_dot(to));
         if cos < 0.0 {
-            // Half a turn, at the end of a segment, must not become minus half a turn by rounding.
+            // At the end of a segment, rounding must not turn half a turn into minus half a turn.
             sin = sin.abs();
         }
         Self { angle: libm::atan2(sin, cos), pull: from * sin + from.perp() * (1.0 - cos) }
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_sliver_has_its_centre_of_mass_within() {
-        // What places about its middle are rounded by is more than it has of an area.
+        // The rounding of positions about its middle is more than its area.
         let corners = [(0.0, 0.0), (128_701.21, 480_313.9), (4.964_317e-11, 1.852_687e-10)].map(Vec2::from);
         for radius in [0.0, 1e-45, 1e-12, 1e-3] {
             let sliver = Polygon::hull_of(&corners).unwrap().rounded(radius).unwrap();

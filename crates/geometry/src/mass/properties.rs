@@ -1,4 +1,4 @@
-//! What a stepper needs to know of a body's matter.
+//! Mass properties, as a solver needs them.
 
 use super::second::Second;
 use crate::basis3::Basis3;
@@ -24,7 +24,7 @@ use glam::{DMat3, DVec2, DVec3};
 pub struct MassProperties2 {
     /// Mass, in kg: never negative.
     pub mass: f64,
-    /// Centre of mass, in the shape's axes, in metres. Of a shape without area, its centroid.
+    /// Centre of mass, in the shape's axes, in metres. The centroid, for a shape without area.
     pub center: DVec2,
     /// Moment of inertia about the centre of mass, in kg m^2: never negative.
     pub inertia: f64,
@@ -33,10 +33,9 @@ pub struct MassProperties2 {
 /// Mass, centre of mass and inertia of a shape in space, from
 /// [`Shape3::mass_properties`](crate::Shape3::mass_properties).
 ///
-/// The tensor is the full symmetric one, as a plain `DMat3`: the inertia in the world's axes is R I R^T, which is
-/// also what
-/// [`MassProperties3::posed`] gives, and its inverse is one call away. It is not split into principal axes, which
-/// flip between equals from one shape to the next.
+/// The tensor is the full symmetric one, as a plain `DMat3`: the inertia in world axes is R I R^T, as
+/// [`MassProperties3::posed`] gives it, and its inverse is one call. It is not given as principal axes, which would
+/// flip between equal ones from one shape to the next.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, MassProperties3, Pose3, Shape3, Sphere, glam::{DVec3, Quat, Vec3}};
@@ -57,7 +56,7 @@ pub struct MassProperties2 {
 pub struct MassProperties3 {
     /// Mass, in kg: never negative.
     pub mass: f64,
-    /// Centre of mass, in the shape's axes, in metres. Of a shape without volume, its centroid.
+    /// Centre of mass, in the shape's axes, in metres. The centroid, for a shape without volume.
     pub center: DVec3,
     /// Inertia tensor about the centre of mass, in the shape's axes, in kg m^2: symmetric; up to rounding no
     /// principal moment is negative, or larger than the sum of the other two.
@@ -65,10 +64,10 @@ pub struct MassProperties3 {
 }
 
 impl MassProperties2 {
-    /// The same matter after a pose, as the body of a compound's part sees it.
+    /// The same mass, posed, for example as a part of a compound.
     ///
-    /// A stored rotation means its matrix, which stretches by its length: that is one up to the rounding of f32, and
-    /// counts here as everywhere.
+    /// A stored rotation means its matrix, which scales by the length of the stored pair: that is one up to the
+    /// rounding of f32, and is taken into account as everywhere.
     pub fn posed(&self, pose: &Pose2) -> Self {
         let (c, s) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
         let stretch = c * c + s * s;
@@ -84,12 +83,12 @@ impl MassProperties2 {
         self.inertia + self.mass * (self.center - point.into()).length_squared()
     }
 
-    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties2::posed`]. Nothing has no
-    /// mass; where no part has mass, the centre is the mean of theirs.
+    /// Combines several parts to one rigid body. They must be given in the same axes: see [`MassProperties2::posed`].
+    /// Without parts the mass is zero; if no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };
-        // From the first centre: a mean of places far from the origin would lose their differences.
+        // Relative to the first centre: a mean of positions far from the origin would lose their differences.
         let offset = |part: &Self| (part.center - first.center) * share(part.mass, mass, parts.len());
         let center = first.center + parts.iter().map(offset).fold(DVec2::ZERO, |sum, each| sum + each);
         let inertia = parts.iter().map(|part| part.inertia_about(center)).sum();
@@ -98,8 +97,7 @@ impl MassProperties2 {
 }
 
 impl MassProperties3 {
-    /// The same matter after a pose: in the world, or as the body of a compound's part sees it. Exact up to rounding
-    /// for any quaternion.
+    /// The same mass, posed: in the world, or as a part of a compound. Exact up to rounding for any quaternion.
     pub fn posed(&self, pose: &Pose3) -> Self {
         let inertia = turned(&self.inertia, &pose.basis());
         Self { mass: self.mass, center: pose.transform(self.center), inertia }
@@ -111,8 +109,8 @@ impl MassProperties3 {
         sum(&self.inertia, &shift)
     }
 
-    /// Several as one rigid body. They must be given in the same axes: see [`MassProperties3::posed`]. Nothing has no
-    /// mass; where no part has mass, the centre is the mean of theirs.
+    /// Combines several parts to one rigid body. They must be given in the same axes: see [`MassProperties3::posed`].
+    /// Without parts the mass is zero; if no part has mass, the centre is the mean of theirs.
     pub fn combined(parts: &[Self]) -> Self {
         let mass: f64 = parts.iter().map(|part| part.mass).sum();
         let Some(first) = parts.first() else { return Self::default() };
@@ -124,7 +122,7 @@ impl MassProperties3 {
 }
 
 impl Default for MassProperties3 {
-    /// No matter. (A derived default would have the unit tensor.)
+    /// No mass. (A derived default would have the unit tensor.)
     fn default() -> Self {
         Self { mass: 0.0, center: DVec3::ZERO, inertia: DMat3::ZERO }
     }
@@ -135,7 +133,7 @@ fn share(mass: f64, total: f64, count: usize) -> f64 {
     if total > 0.0 { mass / total } else { 1.0 / count as f64 }
 }
 
-/// R I R^T, and symmetric in every bit. Our own products: see [`Basis3`].
+/// R I R^T, symmetric in every bit. Products are written out, for the reason given at [`Basis3`].
 fn turned(inertia: &DMat3, basis: &Basis3) -> DMat3 {
     // Column k of R I, then the sum over k of (that column) times (column k of R)^T.
     let half = [inertia.x_axis, inertia.y_axis, inertia.z_axis].map(|column| basis.turn(column));

@@ -1,19 +1,19 @@
-//! What the rounding adds beside the faces: sectors of cylinders along edges, sectors of balls at vertices.
+//! The moments of a rounding beside the faces: sectors of cylinders along edges, sectors of balls at vertices.
 //!
 //! ```text
 //! for each edge p -> q, with unit direction e, between the faces with normals n1 (left of it) and n2:
 //!     its normals are u(t) = n1 cos t + (e x n1) sin t, t in [0, angle]        half a turn for a flat core
 //!     add the sector of a cylinder: p + s (q - p) + rho u(t)
-//!     among all directions this is an arc about e, between those of p and those of q:
+//!     on the unit sphere this is an arc about e, between the regions of p and of q:
 //!         pull of p -= angle e / 2,  pull of q += angle e / 2
-//! for each vertex, with its solid angle = full turn - the sum of its face angles (Gauss and Bonnet: also right for flat cores):
-//!     add the sector of a ball, v + rho w with w among its directions, by the solid angle and pull = integral of w
-//! once: the integral of rho^2 w w^T, which no vertex scales: all the sectors together make one ball
+//! for each vertex, whose solid angle = full turn - the sum of its face angles (Gauss and Bonnet; also for flat cores):
+//!     add the sector of a ball, v + rho w with w in its region, from the solid angle and pull = integral of w
+//! once: the integral of rho^2 w w^T, which does not depend on vertices: all sectors together make one ball
 //! ```
 //!
-//! The pull is Lambert's formula, the first of Arvo's irradiance tensors: for a region left of arcs about unit axes
-//! k, it is the sum of angle k / 2; here k is -e at the edge's origin and e at its end. No quotient has the sine of
-//! an angle below it, so nothing happens where neighbouring faces are nearly one plane or back to back.
+//! The pull is Lambert's formula, the first of Arvo's irradiance tensors: for a region left of arcs about unit axes k,
+//! it is the sum of angle k / 2; here k is -e at the edge's origin and e at its end. There is no division by the sine
+//! of an angle, so neighbouring faces that are nearly coplanar or back to back are no special case.
 
 use super::second::{Second, cross};
 use super::volume::Moments;
@@ -21,7 +21,7 @@ use crate::cores::Core3;
 use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 
-/// Adds what lies beside edges and vertices. `vertices` are the core's, about the origin of the moments.
+/// Adds the sectors along edges and at vertices. `vertices` are the core's, about the origin of the moments.
 pub(super) fn add_rounding(moments: &mut Moments, core: &Core3<'_>, vertices: &[DVec3], r: f64) {
     let mut pulls = vec![DVec3::ZERO; vertices.len()];
     for &edge in core.topology().edges() {
@@ -42,7 +42,7 @@ pub(super) fn add_rounding(moments: &mut Moments, core: &Core3<'_>, vertices: &[
     moments.add(0.0, DVec3::ZERO, Second::round(4.0 / 15.0 * PI * r * r * r * r * r));
 }
 
-/// The normals of an edge: unit vectors on an arc.
+/// The unit normals of an edge, an arc.
 struct Sector {
     angle: f64,
     /// Integral of the vectors.
@@ -51,7 +51,7 @@ struct Sector {
     spread: Second,
 }
 
-/// Nothing for an edge so short that its faces' normals do not turn about it.
+/// `None` for an edge so short that the normals of its faces do not turn about it.
 fn sector_of(core: &Core3<'_>, edge: usize, along: DVec3) -> Option<Sector> {
     let half_edge = core.topology().half_edges()[edge];
     let twin = core.topology().half_edges()[half_edge.twin as usize];
@@ -62,13 +62,13 @@ fn sector_of(core: &Core3<'_>, edge: usize, along: DVec3) -> Option<Sector> {
         let spread = (Second::round(1.0) + Second::of(along) * -1.0) * PI;
         return Some(Sector { angle: TAU, pull: DVec3::ZERO, spread });
     };
-    // Normals of merged faces are perpendicular to the edge up to the flatness of a face only.
+    // Normals of merged faces are perpendicular to the edge only up to the flatness of a face.
     let upright = |normal: DVec3| (normal - along * normal.dot(along)).try_normalize();
     let (from, to) = (upright(left)?, upright(right)?);
     let across = along.cross(from);
     let (cos, mut sin) = (from.dot(to), across.dot(to));
     if cos < 0.0 {
-        // Half a turn, around a flat core, must not become minus half a turn by rounding.
+        // Around a flat core, rounding must not turn half a turn into minus half a turn.
         sin = sin.abs();
     }
     let angle = libm::atan2(sin, cos);
@@ -92,7 +92,7 @@ fn add_cylinder_sector(moments: &mut Moments, [p, q]: [DVec3; 2], sector: &Secto
     );
 }
 
-/// The solid angle of each vertex's normals.
+/// The solid angle of the normals of each vertex.
 fn solid_angles(core: &Core3<'_>, vertices: &[DVec3]) -> Vec<f64> {
     let whole = if vertices.len() == 1 { 2.0 * TAU } else { TAU };
     let mut angles = vec![whole; vertices.len()];

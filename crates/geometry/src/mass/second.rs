@@ -5,8 +5,8 @@ use glam::{DMat3, DVec3};
 
 /// A symmetric tensor of second moments: xx, yy, zz, and the mixed ones.
 ///
-/// The tensor of a body about its centre is the sum of x x^T over its matter. It keeps thin shapes thin where the
-/// inertia, whose entries are sums of two of these, could not give the small one back.
+/// The tensor of a body about its centre is the integral of x x^T over its mass. It keeps small moments of thin shapes
+/// exact, which could not be recovered from the inertia, whose entries are sums of two of these.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Second {
     /// xx, yy, zz.
@@ -32,10 +32,10 @@ impl Second {
         Self { squares: DVec3::splat(value), products: DVec3::ZERO }
     }
 
-    /// The inertia of the same matter: the trace times the unit tensor, minus this.
+    /// The inertia of the same mass: the trace times the unit tensor, minus this.
     pub(super) fn inertia(&self) -> DMat3 {
         let s = self.squares;
-        // Zero minus zero is zero; the negative of zero would print as "-0".
+        // A difference instead of a negation, which would print zero as "-0".
         let mixed = DVec3::ZERO - self.products;
         DMat3::from_cols(
             DVec3::new(s.y + s.z, mixed.z, mixed.y),
@@ -65,8 +65,8 @@ impl core::ops::Mul<f64> for Second {
     }
 }
 
-/// The cross product, every component right to a few units of its own last place: two long edges of a needle span an
-/// area that is far smaller than the products it is the difference of.
+/// The cross product, every component right to a few units in its own last place: two long edges of a needle span an
+/// area far smaller than the products of which it is the difference.
 pub(super) fn cross(a: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(
         product_difference(a.y, b.z, a.z, b.y),

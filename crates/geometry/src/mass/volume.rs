@@ -28,7 +28,7 @@ impl Moments {
     }
 }
 
-/// Any convex shape. A half-space and a compound, which have no core, have no mass here.
+/// Any convex shape with a core; a half-space or a compound, which have none, get no mass here.
 pub(super) fn of_convex(shape: &Shape3, density: f64) -> MassProperties3 {
     if let Shape3::Cuboid(cuboid) = shape {
         return of_cuboid(cuboid, density);
@@ -49,22 +49,22 @@ pub(super) fn of_convex(shape: &Shape3, density: f64) -> MassProperties3 {
     if moments.volume <= 0.0 {
         return without_volume(center + centroid(&core, &vertices));
     }
-    // Of a sliver the volume may be no more than rounding, and the quotient anywhere.
+    // The volume of a sliver may be mere rounding, and the quotient anywhere.
     let (low, high) = box_around(&vertices);
     let offset = (moments.first / moments.volume).clamp(low - radius, high + radius);
     let mut second = moments.second + Second::of(offset) * -moments.volume;
-    // Never below zero, save by the rounding of this difference.
+    // Negative only by the rounding of this difference.
     second.squares = second.squares.max(DVec3::ZERO);
     let (mass, inertia) = (density * moments.volume, (second * density).inertia());
     MassProperties3 { mass, center: center + offset, inertia }
 }
 
-/// A box, whose symmetry is worth keeping in every bit: the centre is its origin and no axes are mixed.
+/// A cuboid, in a form that keeps its symmetry in every bit: the centre is its origin and no axes are mixed.
 fn of_cuboid(cuboid: &Cuboid, density: f64) -> MassProperties3 {
     let (h, r) = (cuboid.half_extents().as_dvec3(), f64::from(cuboid.radius()));
     let (r2, r3) = (r * r, r * r * r);
-    // Second moment along one axis. In order: what has the core's extent there (core, four slabs, four edges), the
-    // two slabs at its ends, the eight edges across it (as two whole cylinders), the corners (as one ball).
+    // Second moment along one axis. In order: the pieces with the core's extent there (core, four slabs, four edges),
+    // the two slabs at its ends, the eight edges across it (as two whole cylinders), the corners (as one ball).
     let along = |a: f64, b: f64, c: f64| {
         let a2 = a * a;
         a2 / 3.0 * (8.0 * a * (b * c + r * (b + c)) + 2.0 * PI * r2 * a)
@@ -100,20 +100,20 @@ fn each_triangle(core: &Core3<'_>, vertices: &[DVec3], mut visit: impl FnMut(usi
     }
 }
 
-/// A triangle's area vector, sum of corners, and second moment for unit area times twelve.
+/// A triangle's area vector, sum of corners, and twelve times its second moment for unit area.
 fn measures([a, b, c]: [DVec3; 3]) -> (DVec3, DVec3, Second) {
     let sum = a + b + c;
     (cross(b - a, c - a) * 0.5, sum, Second::of(a) + Second::of(b) + Second::of(c) + Second::of(sum))
 }
 
-/// The tetrahedron from the origin, which lies inside or near the core, to a triangle of its surface.
+/// Adds the tetrahedron from the origin, which lies inside or near the core, to a triangle of its surface.
 fn add_tetrahedron(moments: &mut Moments, triangle: [DVec3; 3]) {
     let (area, sum, square) = measures(triangle);
     let volume = area.dot(triangle[0]) / 3.0;
     moments.add(volume, sum * (volume / 4.0), square * (volume / 20.0));
 }
 
-/// What a triangle sweeps when it moves along `way`.
+/// Adds the prism that a triangle sweeps along `way`.
 fn add_prism(moments: &mut Moments, triangle: [DVec3; 3], way: DVec3) {
     let (area, sum, square) = measures(triangle);
     let volume = area.dot(way);
@@ -122,7 +122,7 @@ fn add_prism(moments: &mut Moments, triangle: [DVec3; 3], way: DVec3) {
     moments.add(volume, (middle + way * 0.5) * volume, second * volume);
 }
 
-/// The centroid of a core that has no volume, by its own measure: area, length, or number.
+/// The centroid of a core without volume, weighted by area, length, or number.
 fn centroid(core: &Core3<'_>, vertices: &[DVec3]) -> DVec3 {
     let (mut area, mut moment) = (0.0, DVec3::ZERO);
     if core.normals().len() == 2 {

@@ -1,4 +1,4 @@
-//! A mesh from vertices and triangles.
+//! Builds a mesh from vertices and triangles.
 
 use super::edges::{Edges, NO_TWIN};
 use super::{Data, DroppedTriangles, MeshError};
@@ -11,7 +11,7 @@ use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 use crate::triangle::Triangle3;
 use glam::{DVec3, Vec3};
 
-/// A mesh's data; where backs are kept, as one that is solid from the front alone is to have them.
+/// A mesh's data. `keeps_backs` is for one-sided meshes.
 pub(super) fn build(
     mut vertices: Vec<Vec3>,
     mut triangles: Vec<[u32; 3]>,
@@ -33,7 +33,7 @@ pub(super) fn build(
     let Some((low, high)) = kept().map(|triangle| around(corners(triangle))).reduce(union) else {
         return Err(MeshError::NoTriangles);
     };
-    // Of two zeros with different signs, either may be the least: added to zero they are the same.
+    // The minimum of -0 and 0 may be either: adding zero makes them equal.
     let center = (low + high) * 0.5 + Vec3::ZERO;
     let normal = |triangle: u32| {
         let [a, b, c] = corners(triangle).map(|corner| corner.as_dvec3());
@@ -75,10 +75,11 @@ pub(super) fn build(
     })
 }
 
-/// Vertices a triangle up to which the tree holds corners, too: 12 bytes more a triangle, and 100 in all are promised.
+/// Most vertices per triangle with which the tree also holds corners: that takes 12 bytes more per triangle, and 100 in
+/// all are promised.
 const MOST_VERTICES: usize = 2;
 
-/// Set in the marks of a triangle that was dropped, and no [`Prominent`]'s.
+/// The marks of a dropped triangle, which no [`Prominent`] has.
 pub(super) const DROPPED: u16 = 1 << 15;
 
 fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
@@ -104,13 +105,13 @@ fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     Ok(())
 }
 
-/// Gives vertices at the same place one number, the least.
+/// Gives vertices at the same position one number, the least.
 ///
-/// What cannot be told apart by place is one vertex: files repeat vertices that have several normals or textures,
-/// and without this every edge of theirs would end the ground.
+/// Files repeat vertices that have several normals or texture coordinates; without welding, the ground would end at
+/// each of their edges.
 fn weld(vertices: &[Vec3], triangles: &mut [[u32; 3]]) {
     let key = |(number, vertex): (u128, &Vec3)| {
-        // Added to zero, both zeros are one.
+        // Adding zero turns -0 into 0.
         let [x, y, z] = (*vertex + Vec3::ZERO).to_array().map(|part| u128::from(part.to_bits()));
         x << 96 | y << 64 | z << 32 | number
     };
@@ -142,7 +143,7 @@ fn sides(corners: [Vec3; 3]) -> Sides {
     [low.x, low.y, low.z, high.x, high.y, high.z]
 }
 
-/// What is needed to see where a mesh bends.
+/// The data needed to see where a mesh bends.
 struct Sights<'a> {
     triangles: &'a [[u32; 3]],
     vertices: &'a [Vec3],
@@ -181,7 +182,7 @@ impl Sights<'_> {
         sight([self.normals[triangle], self.normals[other]], (to - from).normalize())
     }
 
-    /// Marks the corners at which an edge is marked, of whichever triangle.
+    /// Marks the corners at which an edge of any triangle is marked.
     fn corners(&self, kept: impl Iterator<Item = u32> + Clone, marks: &mut [u16]) {
         let mut seen = vec![[false; 2]; self.vertices.len()];
         let ends = |triangle: u32, edge: usize| {

@@ -1,25 +1,24 @@
-//! Which triangles meet at which edges.
+//! Pairs the half-edges of a mesh.
 
-/// What follows from who shares an edge with whom.
+/// The neighbours of all triangles, and the duplicates found on the way.
 pub(super) struct Edges {
-    /// For each half-edge, three a triangle, the one on the other side.
+    /// For each half-edge, three per triangle, the one on the other side.
     pub(super) twins: Vec<u32>,
-    /// How many triangles were dropped as others' duplicates.
+    /// How many triangles were dropped as duplicates of others.
     pub(super) duplicate: usize,
-    /// Whether one of those is another's back: the same three vertices, seen from the other side.
+    /// Whether one of these is the back of another: the same three vertices, wound the other way.
     pub(super) has_backs: bool,
 }
 
-/// Twin of a half-edge beyond which there is nothing, or not one thing.
+/// The twin of a half-edge beyond which there is no triangle, or no unique one.
 pub(super) const NO_TWIN: u32 = u32::MAX;
 
 impl Edges {
-    /// Pairs half-edges, and drops triangles that have the same three vertices as an earlier one: those share three
-    /// edges with it, and at each the vertex on the other side. Backs are kept where they are asked for: then a sheet
-    /// of both is two, which hang together where it ends.
+    /// Pairs half-edges, and drops triangles with the same three vertices as an earlier one: these share an edge with
+    /// it and the opposite vertex. With `keeps_backs`, backs are kept: a sheet with fronts and backs is then two
+    /// sheets, connected along its rim.
     ///
-    /// By sorting: half-edges go to the lesser of their vertices, by counting, and there stand in the order of the
-    /// other.
+    /// Works by sorting: a counting sort of half-edges by their lesser vertex, then a sort by the greater one.
     pub(super) fn of(
         triangles: &[[u32; 3]],
         vertices: usize,
@@ -51,7 +50,7 @@ struct Pairing<'a> {
 }
 
 impl Pairing<'_> {
-    /// Where a half-edge starts and ends, and the vertex that is not on it.
+    /// The start and end of a half-edge, and the opposite vertex.
     fn vertices(&self, half_edge: u32) -> [u32; 3] {
         let [a, b, c] = self.triangles[half_edge as usize / 3];
         match half_edge % 3 {
@@ -61,8 +60,8 @@ impl Pairing<'_> {
         }
     }
 
-    /// Half-edges with their greater vertex in the upper half, in the order of their lesser vertex; and where those of
-    /// each vertex end.
+    /// Half-edges sorted by their lesser vertex, with the greater one in the upper half of each number; and where those
+    /// of each vertex end.
     fn by_lesser_vertex(&self, vertices: usize) -> (Vec<u64>, Vec<u32>) {
         let kept = (0..self.triangles.len()).filter(|&triangle| !self.is_dropped[triangle]);
         let half_edges = kept.flat_map(|triangle| (3 * triangle as u32..).take(3));
@@ -83,15 +82,15 @@ impl Pairing<'_> {
             sorted[*place as usize] = u64::from(greater) << 32 | u64::from(half_edge);
             *place += 1;
         }
-        // Every place has moved on to where its half-edges end.
+        // By now every place has advanced to the end of its half-edges.
         (sorted, places)
     }
 
-    /// The half-edges of one edge, in the order of their numbers.
+    /// Pairs the half-edges of one edge, which come in the order of their numbers.
     fn pair(&mut self, edge: &mut [u64]) {
         let opposite = |half_edge: u64| self.vertices(half_edge as u32)[2];
         edge.sort_unstable_by_key(|&half_edge| (opposite(half_edge), half_edge));
-        // Of the first two vertices that are opposite, a half-edge each way.
+        // For the first two opposite vertices, a half-edge in each direction.
         let mut different = [[NO_TWIN; 2]; 2];
         let (mut count, mut last, mut seen) = (0, None, [false; 2]);
         for &half_edge in &*edge {

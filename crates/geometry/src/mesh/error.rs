@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh.
+//! Errors of meshes.
 
 use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 
@@ -13,15 +13,15 @@ use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DroppedTriangles {
-    /// What [`Triangle3::new`](crate::Triangle3::new) refuses: without an area, so thin that their normal would be
+    /// Rejected by [`Triangle3::new`](crate::Triangle3::new): without an area, so thin that the normal would be mere
     /// rounding, or too small.
     pub degenerate: usize,
-    /// The same three points as an earlier one, in any order; in a [one-sided](crate::TriMesh::one_sided) mesh, wound
-    /// the same way.
+    /// With the same three points as an earlier one, in any order; in a [one-sided](crate::TriMesh::one_sided) mesh,
+    /// only if wound the same way.
     pub duplicate: usize,
 }
 
-/// Why triangles make no mesh.
+/// Why triangles were rejected as a mesh.
 ///
 /// ```
 /// use asunder_geometry::{MeshError, TriMesh, glam::Vec3};

@@ -18,24 +18,24 @@ use edges::NO_TWIN;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// Triangles that make up a level, given by vertices in metres. Clones share the data.
+/// A triangle mesh, for levels, given by vertices in metres. Clones share the data.
 ///
 #[doc = include_str!("../../doc/tri_mesh.svg")]
 ///
-/// It is the union of its triangles, without thickness. Bodies that carry it are always fixed. It is solid from both
-/// sides unless it is [`one_sided`](Self::one_sided).
+/// It is the union of its triangles, without thickness, and solid from both sides unless it is
+/// [`one_sided`](Self::one_sided). Bodies with this shape are always fixed.
 ///
-/// - Vertices at the same place count as one, whatever files say.
-/// - Triangles without an area, and triangles that are there already, wound either way, are [dropped](Self::dropped).
-///   The others keep the numbers that they were given by, so that materials can be looked up by them.
-/// - Two triangles are neighbours where they alone share an edge and wind alike.
+/// - Vertices at the same position count as one, even if a file repeats them.
+/// - Triangles without an area, and duplicates of earlier ones, wound either way, are [dropped](Self::dropped). The
+///   others keep their numbers, so that materials can be looked up by them.
+/// - Two triangles are neighbours if they wind alike and only they share an edge.
 ///
 /// # Costs and limits
 /// - At most [`MAX_TRIANGLES`](crate::tolerance::MAX_TRIANGLES) triangles and
 ///   [`MAX_MESH_VERTICES`](crate::tolerance::MAX_MESH_VERTICES) vertices, within 1e6 m of the shape's origin.
 /// - A triangle takes about 80 bytes, and less than 100 where no vertex is shared.
-/// - What is near is found in a tree, which holds the triangles' corners, so that a ray looks nowhere else. Where more
-///   than two vertices are given per triangle it holds only their boxes, and rays on a large mesh take longer then.
+/// - Triangles are found in a tree that holds their corners, so that a ray needs no other data. With more than two
+///   vertices per triangle it holds only boxes, and rays on a large mesh take longer.
 ///
 /// ```
 /// use asunder_geometry::{TriMesh, glam::Vec3};
@@ -53,17 +53,17 @@ pub struct TriMesh {
 
 struct Data {
     vertices: Vec<Vec3>,
-    /// By the least number of the vertices at a place.
+    /// Among vertices at the same position, the least number.
     triangles: Vec<[u32; 3]>,
-    /// For each half-edge, three a triangle, the one on the other side.
+    /// For each half-edge, three per triangle, the one on the other side.
     twins: Vec<u32>,
-    /// The least number of each triangle's plane.
+    /// The patch of each triangle, by its least triangle number.
     patches: Vec<u32>,
     /// [`Prominent`]'s bits, or [`DROPPED`].
     marks: Vec<u16>,
     tree: Tree,
     dropped: DroppedTriangles,
-    /// Whether some were dropped that are others' backs.
+    /// Whether some were dropped because they are the backs of others.
     has_backs: bool,
     low: Vec3,
     high: Vec3,
@@ -88,9 +88,9 @@ impl TriMesh {
 
     /// The same mesh, solid only from the front.
     ///
-    /// A triangle that was dropped as another's back, the same three vertices wound the other way, comes back: so
-    /// leaves and fences that are drawn from both sides stand in the way of both. For that the mesh is made once more,
-    /// and its data is not shared; else this costs nothing.
+    /// A triangle that was dropped as another's back (the same three vertices wound the other way) is restored, so that
+    /// leaves and fences that are modelled from both sides are solid from both. In that case the mesh is built anew,
+    /// and its data are not shared; otherwise this costs nothing.
     ///
     /// ```
     /// use asunder_geometry::{TriMesh, glam::Vec3};
@@ -102,7 +102,7 @@ impl TriMesh {
     pub fn one_sided(self) -> Self {
         let data = if self.data.has_backs {
             let Data { vertices, triangles, .. } = &*self.data;
-            // Nothing is refused: what is a mesh with fewer of its triangles is one with more.
+            // Cannot fail: it was a mesh with fewer of these triangles.
             build::build(vertices.clone(), triangles.clone(), true).map_or(self.data, Arc::new)
         } else {
             self.data
@@ -116,8 +116,8 @@ impl TriMesh {
         self.is_one_sided
     }
 
-    /// An address that two meshes have in common exactly when they share their data; only good while both live. It
-    /// differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two meshes have in common exactly when they share their data; valid only while both live. It
+    /// differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
@@ -129,8 +129,8 @@ impl TriMesh {
         &self.data.vertices
     }
 
-    /// The triangles in the order given, also those that were dropped, by their vertices' numbers: of vertices at the
-    /// same place, the least.
+    /// The triangles in the order given, dropped ones included, as vertex numbers: among vertices at the same position,
+    /// the least.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.data.triangles
     }
@@ -140,7 +140,7 @@ impl TriMesh {
         self.data.dropped
     }
 
-    /// Whether a triangle was left out. Those that were never given were.
+    /// Whether a triangle was left out; true as well for numbers that were never given.
     ///
     /// ```
     /// use asunder_geometry::{TriMesh, glam::Vec3};
@@ -153,7 +153,7 @@ impl TriMesh {
         self.data.marks.get(triangle as usize).is_none_or(|&marks| marks == DROPPED)
     }
 
-    /// Memory that is held, in bytes, by all that share it.
+    /// Memory that is held, in bytes; clones share it.
     ///
     /// ```
     /// use asunder_geometry::{TriMesh, glam::Vec3};
@@ -171,7 +171,7 @@ impl TriMesh {
             + data.tree.bytes()
     }
 
-    /// The centre that the bounding radius is about: the middle of its box.
+    /// The centre of the bounding radius: the middle of its box.
     #[inline]
     pub fn center(&self) -> Vec3 {
         self.data.center
@@ -183,13 +183,13 @@ impl TriMesh {
         self.data.outer_radius
     }
 
-    /// Whether any triangle holds a local point, in metres.
+    /// Whether any triangle contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec3>) -> bool {
         Ground::Mesh(self).holds(point.into())
     }
 
-    /// A box around the posed mesh, grown by `margin` metres and rounded outwards: around its own box, turned. Cost: of
-    /// eight corners.
+    /// A box around the posed mesh, grown by `margin` metres and rounded outwards. It is the box of the mesh's own box,
+    /// posed; the cost is that of eight corners.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         bounds_of([self.data.low, self.data.high], pose, margin)
     }
@@ -247,7 +247,7 @@ impl TriMesh {
     }
 }
 
-/// Whether they are the same triangles of the same vertices, solid from the same sides.
+/// Equal triangles of equal vertices, solid from the same sides.
 impl PartialEq for TriMesh {
     fn eq(&self, other: &Self) -> bool {
         let (one, two) = (&*self.data, &*other.data);
@@ -257,7 +257,7 @@ impl PartialEq for TriMesh {
 }
 
 impl Ground<'_> {
-    /// Whether any triangle holds a local point.
+    /// Whether any triangle contains a local point.
     pub(crate) fn holds(self, point: DVec3) -> bool {
         let holds = |number: u32| match self.triangle(number) {
             Some(triangle) if triangle.contains(point) => ControlFlow::Break(()),
@@ -267,7 +267,7 @@ impl Ground<'_> {
     }
 }
 
-/// The smallest box of f32 that holds a point; none, if it is not finite.
+/// The smallest f32 box that holds a point; an invalid one if the point is not finite.
 fn box_of(point: DVec3) -> Aabb3 {
     let [low, high] = [point.to_array().map(round_down), point.to_array().map(round_up)];
     Aabb3::new(Vec3::from_array(low), Vec3::from_array(high))

@@ -1,8 +1,8 @@
-//! Why points make no polygon.
+//! Errors of polygons.
 
 use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 
-/// Why the vertices of a polygon were refused.
+/// Why the vertices of a polygon were rejected.
 ///
 /// ```
 /// use asunder_geometry::{Polygon, PolygonError, glam::Vec2};
@@ -22,7 +22,7 @@ pub enum PolygonError {
         /// How many there would be.
         count: usize,
     },
-    /// A number of vertices to keep that is below 3 or above [`MAX_POLYGON_VERTICES`].
+    /// The number of vertices to keep is below 3 or above [`MAX_POLYGON_VERTICES`].
     LimitOutOfRange {
         /// The number asked for.
         max_vertices: usize,
@@ -58,7 +58,7 @@ pub enum PolygonError {
         /// Index of the vertex.
         vertex: usize,
     },
-    /// Every vertex turns left, but the outline runs around more than once, as a star's does.
+    /// Every vertex turns left, but the outline winds around more than once, like a star's.
     WindsRepeatedly,
     /// A regular polygon of fewer sides than 3, or of more than [`MAX_POLYGON_VERTICES`].
     Sides {
@@ -121,12 +121,12 @@ impl core::fmt::Display for PolygonError {
 
 impl core::error::Error for PolygonError {}
 
-/// Why stored data are no polygon.
+/// Why stored data do not make a polygon.
 #[cfg(feature = "serde")]
 #[derive(Debug, PartialEq)]
 pub(crate) enum StoredPolygonError {
     Outline(PolygonError),
-    /// A vertex lies on the line between its neighbours: no polygon keeps one.
+    /// A vertex lies on the line between its neighbours, which no polygon keeps.
     NoCorner,
     /// The error is negative, not finite, or larger than any polygon.
     BadError {

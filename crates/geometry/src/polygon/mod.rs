@@ -25,9 +25,9 @@ pub(crate) use error::StoredPolygonError;
 ///
 #[doc = include_str!("../../doc/polygon.svg")]
 ///
-/// Edge `i` runs from vertex `i` to the next. Every check is an exact orientation test (Shewchuk, "Adaptive
-/// precision floating-point arithmetic and fast robust geometric predicates", 1997), so that a polygon is convex
-/// in fact and not up to some rounding.
+/// Edge `i` runs from vertex `i` to the next. Every check is an exact orientation test (Shewchuk, "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", 1997), so that a polygon is exactly convex, and not
+/// up to rounding.
 ///
 /// ```
 /// use asunder_geometry::{Polygon, glam::Vec2};
@@ -50,7 +50,7 @@ struct PolygonData {
     extremes: [u16; 4],
     center: Vec2,
     outer_radius: f32,
-    /// Without the rounding; below zero where the centre lies outside.
+    /// Without the rounding; negative if the centre lies outside.
     inner_radius: f32,
     error: f32,
 }
@@ -58,8 +58,8 @@ struct PolygonData {
 impl Polygon {
     /// A polygon from its outline, counter-clockwise.
     ///
-    /// A vertex that lies exactly on the line between its neighbours is left out: it changes nothing. Cost:
-    /// n log n for the search for repeated points.
+    /// A vertex that lies exactly on the line between its neighbours is dropped, as it changes nothing. Cost: n log n
+    /// for the search for repeated points.
     ///
     /// # Errors
     /// Every case of [`PolygonError`]: concave, clockwise, repeated, collinear, non-finite, out of range.
@@ -99,10 +99,9 @@ impl Polygon {
         Self::from_convex(hull_vertices(points)?, 0.0)
     }
 
-    /// A regular polygon about its own origin, with a corner on the side of x; `radius`, in metres, is that of its
-    /// corners.
+    /// A regular polygon about its own origin, with a corner towards +x; `radius`, in metres, is that of its corners.
     ///
-    /// Corners that an f32 cannot tell from the line between their neighbours are left out: of some thousands, a few.
+    /// Corners that in f32 lie on the line between their neighbours are dropped: of some thousands, a few.
     ///
     /// ```
     /// use asunder_geometry::{Polygon, PolygonError, glam::Vec2};
@@ -114,8 +113,8 @@ impl Polygon {
     /// ```
     ///
     /// # Errors
-    /// Fewer than 3 sides, or more than 4096; a radius that is not positive and finite; what [`Polygon::hull_of`]
-    /// refuses about the corners.
+    /// Fewer than 3 sides, or more than 4096; a radius that is not positive and finite; any error of
+    /// [`Polygon::hull_of`] for the corners.
     pub fn regular(radius: f32, sides: usize) -> Result<Self, PolygonError> {
         if !(3..=MAX_POLYGON_VERTICES).contains(&sides) {
             return Err(PolygonError::Sides { sides });
@@ -127,11 +126,11 @@ impl Polygon {
         Self::hull_of(&corners)
     }
 
-    /// The convex hull of any points with at most `max_vertices` vertices, chosen so that the points left outside are
-    /// near: [`Polygon::error`] says how near. Cost: n log n, and 1e6 points are fine.
+    /// The convex hull of any points with at most `max_vertices` vertices, chosen so that points outside are near:
+    /// [`Polygon::error`] is a bound on how near. Cost: n log n, and 1e6 points are fine.
     ///
-    /// The vertices are a subset of the points, bit for bit; the polygon lies inside the points' hull. Where the hull
-    /// has no more vertices than that, it is the hull and the error is zero.
+    /// The vertices are a subset of the points, bit for bit; the polygon lies inside the points' hull. If the hull has
+    /// no more vertices than that, it is the result, and the error is zero.
     ///
     /// ```
     /// use asunder_geometry::{Polygon, glam::Vec2};
@@ -144,7 +143,7 @@ impl Polygon {
     /// ```
     ///
     /// # Errors
-    /// As [`Polygon::hull_of`], but for too many vertices; a number of vertices below 3 or above 4096.
+    /// As [`Polygon::hull_of`], except too many vertices; and a `max_vertices` below 3 or above 4096.
     pub fn simplify(points: &[Vec2], max_vertices: usize) -> Result<Self, PolygonError> {
         if !(3..=MAX_POLYGON_VERTICES).contains(&max_vertices) {
             return Err(PolygonError::LimitOutOfRange { max_vertices });
@@ -157,7 +156,7 @@ impl Polygon {
         Self::from_convex(vertices, error)
     }
 
-    /// Derives normals and radii from vertices that are known to be strictly convex and counter-clockwise.
+    /// Derives normals and radii from vertices known to be strictly convex and counter-clockwise.
     pub(crate) fn from_convex(vertices: Vec<Vec2>, error: f32) -> Result<Self, PolygonError> {
         if vertices.len() > MAX_POLYGON_VERTICES {
             return Err(PolygonError::TooManyVertices { count: vertices.len() });
@@ -173,7 +172,7 @@ impl Polygon {
         let outer = vertices.iter().map(|v| from_center(v).length()).fold(0.0, f64::max);
         let inner =
             vertices.iter().zip(&normals).map(|(v, n)| n.dot(from_center(v))).fold(f64::INFINITY, f64::min);
-        // The rounded centre of a sliver may lie outside: as far as from the nearest edge.
+        // The rounded centre of a sliver may lie outside, at its distance from the nearest edge.
         let inner = if inner >= 0.0 { inner } else { -distance_from_edges(center.as_dvec2(), &vertices) };
         let outer_radius = round_up(outer * (1.0 + 8.0 * f64::EPSILON));
         if outer_radius < MIN_RADIUS {
@@ -186,7 +185,7 @@ impl Polygon {
         Ok(Self { data: Arc::new(data), radius: 0.0 })
     }
 
-    /// The polygon, without rounding, that was stored as these.
+    /// The polygon, without rounding, of which these were stored.
     #[cfg(feature = "serde")]
     pub(crate) fn restored(vertices: &[Vec2], error: f32) -> Result<Self, StoredPolygonError> {
         let checked = Self::new(vertices).map_err(StoredPolygonError::Outline)?;
@@ -213,7 +212,7 @@ impl Polygon {
 
     /// The vertices furthest along +x, +y, -x and -y; of two that are as far, the first, counter-clockwise.
     ///
-    /// From one to the next, edges look into one quadrant: where a search for a supporting vertex begins and ends.
+    /// From one to the next, edges face into one quadrant: these bound the search for a support vertex.
     ///
     /// ```
     /// use asunder_geometry::{Polygon, glam::Vec2};
@@ -226,14 +225,13 @@ impl Polygon {
         self.data.extremes.map(usize::from)
     }
 
-    /// The centre that both radii are about: the centroid, rounded to f32.
+    /// The centre of both radii: the centroid, rounded to f32.
     #[inline]
     pub fn center(&self) -> Vec2 {
         self.data.center
     }
 
-    /// The same polygon with everything within `radius` metres added: round corners, and larger by the radius on every
-    /// side. Zero takes the rounding away.
+    /// The same polygon expanded by `radius` metres on every side, with round corners. Zero removes the rounding.
     ///
     /// ```
     /// use asunder_geometry::{Polygon, glam::{DVec2, Vec2}};
@@ -251,8 +249,8 @@ impl Polygon {
         Ok(self)
     }
 
-    /// An address that two polygons have in common exactly when they share their data, whatever their rounding;
-    /// only good while both live. It differs from run to run: look up by it, and let no output depend on it.
+    /// An address that two polygons have in common exactly when they share their data, whatever their rounding; valid
+    /// only while both live. It differs from run to run: use it for look-ups, and let no output depend on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {
@@ -265,14 +263,14 @@ impl Polygon {
         self.radius
     }
 
-    /// Radius of a circle about [`Polygon::center`] that holds the shape, in metres, rounded up.
+    /// Radius of a circle about [`Polygon::center`] that contains the shape, in metres, rounded up.
     #[inline]
     pub fn outer_radius(&self) -> f32 {
         grown(self.data.outer_radius, self.radius)
     }
 
-    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down. Zero where
-    /// there is none: the centre of a sliver is rounded, and may lie beside it.
+    /// Radius of a circle about [`Polygon::center`] that lies inside the shape, in metres, rounded down. Zero if there
+    /// is none: the centre is rounded, and may lie beside a sliver.
     #[inline]
     pub fn inner_radius(&self) -> f32 {
         round_down(f64::from(self.data.inner_radius) + f64::from(self.radius)).max(0.0)
@@ -285,8 +283,8 @@ impl Polygon {
         self.data.error
     }
 
-    /// The same, of points that may lie further outside, in metres, than those it was made from. For one that nobody
-    /// shares.
+    /// Adds to the error for points that lie up to so far, in metres, outside of those it was made from. Only for a
+    /// polygon whose data are not shared.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
         if let Some(data) = Arc::get_mut(&mut self.data) {
             data.error = data.error.max(round_up(error));
@@ -294,8 +292,8 @@ impl Polygon {
         self
     }
 
-    /// Whether the closed shape holds a local point, in metres. Exact where there is no rounding. Cost: linear in the
-    /// vertices.
+    /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding. Cost: linear in
+    /// the vertices.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
         let point = point.into();
         if !point.is_finite() {
@@ -322,7 +320,7 @@ impl Polygon {
     }
 }
 
-/// The nearest place in f32, or where that is out of range the next one towards the origin.
+/// The nearest f32 position or, if that is out of range, the next one towards the origin.
 fn within_range(place: DVec2) -> Vec2 {
     let nearest = place.as_vec2();
     if nearest.as_dvec2().length() <= f64::from(MAX_RADIUS) {
@@ -377,7 +375,7 @@ fn hull_vertices(points: &[Vec2]) -> Result<Vec<Vec2>, PolygonError> {
 
 /// The vertices furthest along +x, +y, -x and -y; of two that are as far, the first, counter-clockwise.
 fn extremes(vertices: &[Vec2]) -> [u16; 4] {
-    // Of two on an edge across the direction, the first is the one further clockwise.
+    // If an edge is perpendicular to the direction, the first is its vertex further clockwise.
     let keys: [fn(Vec2) -> [f32; 2]; 4] =
         [|v| [v.x, -v.y], |v| [v.y, v.x], |v| [-v.x, v.y], |v| [-v.y, -v.x]];
     keys.map(|key| {
@@ -392,7 +390,8 @@ fn extremes(vertices: &[Vec2]) -> [u16; 4] {
     })
 }
 
-/// How far a point is from the nearest edge, in metres; no less than the truth but for the rounding of a length.
+/// Distance of a point from the nearest edge, in metres; never below the true one by more than the rounding of a
+/// length.
 fn distance_from_edges(point: DVec2, vertices: &[Vec2]) -> f64 {
     let from_edge = |[_, from, to]: [Vec2; 3]| {
         let (from, along) = (from.as_dvec2(), to.as_dvec2() - from.as_dvec2());
@@ -402,7 +401,7 @@ fn distance_from_edges(point: DVec2, vertices: &[Vec2]) -> f64 {
     corners(vertices).map(from_edge).fold(f64::INFINITY, f64::min)
 }
 
-/// The centre of area. Where rounding leaves a sliver none that lies in its box, the middle of the box.
+/// The centre of area; the middle of the box if rounding puts a sliver's centre outside of that.
 fn centroid(vertices: &[Vec2]) -> DVec2 {
     let origin = vertices[0].as_dvec2();
     let (mut area, mut moment) = (0.0, DVec2::ZERO);

@@ -1,4 +1,4 @@
-//! Exact questions about points in the plane.
+//! Exact predicates for points in the plane.
 
 use glam::Vec2;
 use robust::{Coord, orient2d};
@@ -10,7 +10,7 @@ pub(crate) fn orientation(a: Vec2, b: Vec2, c: Vec2) -> f64 {
 }
 
 pub(crate) fn order(a: Vec2, b: Vec2) -> core::cmp::Ordering {
-    // `+ 0.0` makes -0 and +0 one: they are one point.
+    // `+ 0.0` turns -0 into +0: they are the same point.
     (a.x + 0.0).total_cmp(&(b.x + 0.0)).then((a.y + 0.0).total_cmp(&(b.y + 0.0)))
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn first_repeated(points: &[Vec2]) -> Option<(usize, usize)> {
     by_place.windows(2).find(|two| points[two[0]] == points[two[1]]).map(|two| (two[0], two[1]))
 }
 
-/// How often the outline changes between running rightwards and leftwards: twice for a simple convex one.
+/// How often the outline changes between going right and left: twice for a simple convex one.
 pub(crate) fn direction_changes(outline: &[Vec2]) -> usize {
     corners(outline).filter(|&[a, b, c]| is_before(a, b) != is_before(b, c)).count()
 }

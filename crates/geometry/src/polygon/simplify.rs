@@ -1,23 +1,23 @@
-//! A convex polygon with fewer vertices that leaves little outside.
+//! Simplifies a convex polygon to fewer vertices, with little left outside.
 //!
 //! ```text
 //! the cap over a chord a -> b: the hull's vertices between a and b, which the chord would cut off
-//! for a guess of the error:
-//!     from some vertex, run round the hull; each chord reaches as far as its cap stays within the guess
-//! the least guess that comes round in max_vertices chords, by bisection
-//! vertices to spare go where the highest cap is
-//! the error is measured anew over every vertex left out
+//! for a given error:
+//!     from some vertex, go round the hull by chords, each as long as its cap stays within the error
+//! bisect for the least error with which max_vertices chords go all the way round
+//! use spare vertices where the highest caps are
+//! measure the final error over every vertex that is left out
 //! ```
 //!
-//! Chords that reach as far as they can need no more than any other choice from the same vertex (Imai and Iri,
-//! "Computational-geometric methods for polygonal approximations of a curve", 1986). A cap is a convex arc: its height
-//! over the chord rises and then falls, so that its highest vertex is found by bisection too.
+//! Greedily long chords are as few as possible from a given first vertex (Imai and Iri, "Computational-geometric
+//! methods for polygonal approximations of a curve", 1986). A cap is a convex arc: its height over the chord rises and
+//! then falls, so that its highest vertex is found by bisection, too.
 
 use crate::outward::round_up;
 use glam::{DVec2, Vec2};
 
-/// At most `limit` of the vertices of a strictly convex polygon that has more, and how far outside any other lies.
-/// `limit` is 3 or more.
+/// Picks at most `limit` (3 or more) of the vertices of a strictly convex polygon that has more; also returns how far
+/// outside any other lies.
 pub(super) fn simplified(hull: &[Vec2], limit: usize) -> (Vec<Vec2>, f32) {
     let ring = Ring { hull };
     let mut kept = ring.chosen(limit);
@@ -28,13 +28,13 @@ pub(super) fn simplified(hull: &[Vec2], limit: usize) -> (Vec<Vec2>, f32) {
     (kept.into_iter().map(|index| hull[index]).collect(), error)
 }
 
-/// The hull's vertices, counted round and round.
+/// The hull's vertices as a ring: indices wrap around.
 struct Ring<'a> {
     hull: &'a [Vec2],
 }
 
-/// How much a bisection may leave between the least error that is enough and one that is not: 2^-10 of it, as a
-/// distance of bit patterns.
+/// Bisection stops once the least sufficient error and the greatest insufficient one differ by no more than this in
+/// their bit patterns: by 2^-10 of their size.
 const CLOSE_ENOUGH: u64 = 1 << 42;
 
 impl Ring<'_> {
@@ -42,10 +42,10 @@ impl Ring<'_> {
         self.hull[index % self.hull.len()].as_dvec2()
     }
 
-    /// Vertices in order round the ring, at most `limit` of them, whose caps are as low as bisection finds.
+    /// At most `limit` vertices in order round the ring, with caps as low as bisection finds.
     fn chosen(&self, limit: usize) -> Vec<usize> {
         let size = (1..self.hull.len()).map(|i| self.at(i).distance(self.at(0))).fold(0.0, f64::max);
-        // Twice the diameter covers any cap. Bit patterns of positive numbers are ordered as the numbers are.
+        // Twice the diameter covers any cap. Bit patterns of positive numbers have their order.
         let (mut low, mut high) = ((size * 1e-18).to_bits(), (size * 2.0).to_bits());
         let mut best: Vec<usize> = Vec::new();
         while high - low > CLOSE_ENOUGH {
@@ -58,10 +58,11 @@ impl Ring<'_> {
         if best.is_empty() { (0..limit).collect() } else { best }
     }
 
-    /// A way round with caps up to `height` in at most `limit` chords, if any of a few first vertices starts one.
+    /// A way round with caps up to `height` in at most `limit` chords, if there is one from any of a few first
+    /// vertices.
     ///
-    /// Any way has a vertex within the reach of vertex 0. All of those are tried where they are few; where the limit is
-    /// large, one chord more or less is no matter.
+    /// Any way round has a vertex within the reach of vertex 0. All of these are tried if they are few; with a large
+    /// limit, one chord more or less does not matter.
     fn round(&self, height: f64, limit: usize) -> Option<Vec<usize>> {
         let reach = self.reach(0, self.hull.len() - 1, height);
         let tries = reach.min(256 / limit).max(1);
@@ -71,7 +72,7 @@ impl Ring<'_> {
     fn round_from(&self, start: usize, height: f64, limit: usize) -> Option<Vec<usize>> {
         let end = start + self.hull.len();
         let mut kept = vec![start];
-        // The first chord must not come back to its own start.
+        // The first chord must not return to its own start.
         let mut last = self.reach(start, end - 1, height);
         while last < end {
             if kept.len() == limit {
@@ -83,7 +84,8 @@ impl Ring<'_> {
         Some(kept)
     }
 
-    /// The furthest vertex up to `end` whose chord from `from` has a cap up to `height`: steps that double, then halve.
+    /// The furthest vertex up to `end` whose chord from `from` has a cap up to `height`, by galloping search: steps
+    /// double, then halve.
     fn reach(&self, from: usize, end: usize, height: f64) -> usize {
         let is_low = |to: usize| to <= end && self.cap(from, to).1 <= height;
         let (mut to, mut step) = (from + 1, 1);
@@ -102,7 +104,7 @@ impl Ring<'_> {
 
     /// The highest vertex of the cap over a chord, and a bound on the cap's distance from the chord.
     ///
-    /// Where the cap hangs over an end of the chord, the bound takes height and overhang together.
+    /// If the cap overhangs an end of the chord, the bound combines height and overhang.
     fn cap(&self, from: usize, to: usize) -> (usize, f64) {
         let (a, b) = (self.at(from), self.at(to));
         let along = (b - a) / (b - a).length();
@@ -121,7 +123,7 @@ impl Ring<'_> {
         for (place, (from, to)) in self.chords(kept).enumerate().filter(|(_, (from, to))| to - from > 1) {
             let (vertex, height) = self.cap(from, to);
             if highest.is_none_or(|(_, _, known)| height > known) {
-                // Rounding may call an end of a flat cap its highest vertex.
+                // Rounding may make an end of a flat cap its highest vertex.
                 highest = Some((place, vertex.clamp(from + 1, to - 1), height));
             }
         }
@@ -131,7 +133,7 @@ impl Ring<'_> {
         highest.is_some()
     }
 
-    /// The chords between vertices that go round once.
+    /// The chords between the kept vertices, once around.
     fn chords<'k>(&self, kept: &'k [usize]) -> impl Iterator<Item = (usize, usize)> + use<'k> {
         let end = kept[0] + self.hull.len();
         kept.iter().copied().zip(kept[1..].iter().copied().chain([end]))
@@ -148,7 +150,7 @@ impl Ring<'_> {
                 furthest = furthest.max(self.at(i).distance(a + (b - a) * place));
             }
         }
-        // Whatever rounding makes of the place, it is a point of the chord up to a few roundings of these lengths.
+        // The nearest point, as rounded, is on the chord up to a few roundings of these lengths.
         let extent = self.at(kept[0]).length() + size + furthest;
         round_up(furthest + 16.0 * f64::EPSILON * extent)
     }

@@ -1,4 +1,4 @@
-//! Which outlines are polygons, and which vertices a hull keeps.
+//! Tests of which outlines are polygons, and which vertices a hull keeps.
 
 use super::*;
 use crate::tolerance::MAX_POLYGON_VERTICES;
@@ -55,7 +55,7 @@ fn hull_keeps_bits_and_ignores_order() {
     );
 }
 
-/// A small seeded source of whole numbers: a multiplicative congruential generator (Lehmer).
+/// A small seeded source of integers: a multiplicative congruential generator (Lehmer).
 struct Numbers(u64);
 
 impl Numbers {
@@ -121,7 +121,7 @@ fn hulls_on_lattices_have_exactly_the_extreme_points() {
 
 #[test]
 fn simplifying_keeps_the_far_corners() {
-    // A square with a blunt corner on each side: the four blunt ones are the ones to leave out.
+    // A square with a blunt corner on each side: these four should be dropped.
     let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
     let blunt = [(2.0, -0.125), (4.25, 2.0), (2.0, 4.5), (-0.0625, 2.0)];
     let all = points(&[square, blunt].concat());
@@ -139,7 +139,7 @@ fn simplifying_keeps_the_far_corners() {
     }
 }
 
-/// Every chord's cap is bounded, whatever is left out: checked against each vertex and each side in turn.
+/// The error bounds every chord's cap, whatever is left out: checked against each vertex and each side in turn.
 #[test]
 fn the_error_of_a_simplified_lattice_hull_bounds_every_point() {
     let mut numbers = Numbers(78);

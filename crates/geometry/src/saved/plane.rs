@@ -1,4 +1,4 @@
-//! Forms of what lies in the plane.
+//! Forms of types in the plane.
 
 use super::{Form, said, stored_as};
 use crate::chain::{Chain, ChainError};
@@ -311,7 +311,7 @@ enum ConvexForm {
 }
 
 impl ConvexForm {
-    /// Nothing for what no compound has as a part.
+    /// `None` for shapes that no compound has as a part.
     fn of(shape: &Shape2) -> Option<Self> {
         Some(match shape.clone() {
             Shape2::Circle(shape) => Self::Circle(shape),

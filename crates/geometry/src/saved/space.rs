@@ -1,4 +1,4 @@
-//! Forms of what lies in space.
+//! Forms of types in space.
 
 use super::{Form, said, stored_as};
 use crate::compound::{Compound3, CompoundError, Part3};
@@ -292,7 +292,7 @@ enum ConvexForm {
 }
 
 impl ConvexForm {
-    /// Nothing for what no compound has as a part.
+    /// `None` for shapes that no compound has as a part.
     fn of(shape: &Shape3) -> Option<Self> {
         Some(match shape.clone() {
             Shape3::Sphere(shape) => Self::Sphere(shape),

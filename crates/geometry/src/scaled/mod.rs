@@ -1,7 +1,7 @@
-//! Shapes made larger, smaller or flatter: what a scene's nodes, and assets in other units, ask for.
+//! Scaled shapes, for scene nodes with a scale and assets in other units.
 //!
-//! A scaled shape is a new one, made from the old one's vertices times the factors, each rounded once to f32: powers of
-//! two are exact. What is derived (faces, normals, radii, which triangles share a plane) is derived anew.
+//! A scaled shape is a new one, made from the old one's vertices times the factors, each rounded once to f32; powers of
+//! two are exact. Derived data (faces, normals, radii, which triangles share a plane) are computed anew.
 
 mod plane;
 mod space;
@@ -42,41 +42,40 @@ pub enum ScaleError {
         /// What was given.
         value: f32,
     },
-    /// A round shape, or a rounding, would not stay round: the factors differ in size.
+    /// A round shape, or a rounding, would not stay round, as the factors differ in magnitude.
     Round,
     /// A height field would be turned upside down, or its columns and rows mirrored.
     Mirrored,
-    /// What would become of a rectangle or a cuboid.
+    /// The scaled rectangle or cuboid would be invalid.
     Extent(ExtentError),
-    /// What would become of a radius.
+    /// The scaled radius would be invalid.
     Radius(RadiusError),
-    /// What would become of a capsule.
+    /// The scaled capsule would be invalid.
     Capsule(CapsuleError),
-    /// What would become of a segment or a triangle.
+    /// The scaled segment or triangle would be invalid.
     Vertex(VertexError),
-    /// What would become of a half-plane or a half-space.
+    /// The scaled half-plane or half-space would be invalid.
     Direction(DirectionError),
-    /// What would become of a polygon.
+    /// The scaled polygon would be invalid.
     Polygon(PolygonError),
-    /// What would become of a hull.
+    /// The scaled hull would be invalid.
     Hull(HullError),
-    /// What would become of a chain.
+    /// The scaled chain would be invalid.
     Chain(ChainError),
-    /// What would become of a compound.
+    /// The scaled compound would be invalid.
     Compound(CompoundError),
-    /// Where a part of a compound would be.
+    /// The scaled pose of a part of a compound would be invalid.
     Pose(PoseError),
-    /// What a part of a compound is refused for by itself; one that would be too far away is refused as
-    /// [`ScaleError::Compound`].
+    /// A part of a compound cannot be scaled by itself. (One that would be too far away is a [`ScaleError::Compound`].)
     Part {
         /// Its index in the compound.
         part: usize,
-        /// Of that part.
+        /// The error of that part.
         error: Box<ScaleError>,
     },
-    /// What would become of a triangle mesh.
+    /// The scaled triangle mesh would be invalid.
     Mesh(MeshError),
-    /// What would become of a height field.
+    /// The scaled height field would be invalid.
     HeightField(HeightFieldError),
 }
 
@@ -105,10 +104,10 @@ impl core::fmt::Display for ScaleError {
     }
 }
 
-// No source: what it would say stands in the text already, and who prints a chain of errors would read it twice.
+// No source: the text includes it already, and printing a chain of errors would repeat it.
 impl core::error::Error for ScaleError {}
 
-/// For every error that a constructor has: that it is what the scaled shape is refused for, and how it is printed.
+/// For each error type of a constructor: how it becomes a [`ScaleError`], and how it is printed.
 macro_rules! refused_by {
     ($($variant:ident($error:ty)),+ $(,)?) => {
         impl ScaleError {
@@ -145,7 +144,7 @@ refused_by!(
     HeightField(HeightFieldError),
 );
 
-/// The parts of a compound, each scaled, or what the first that cannot be is refused for.
+/// Scales all parts of a compound, or returns the error of the first that cannot be scaled.
 fn all_scaled<P, S>(parts: &[P], scaled: impl Fn(&P) -> Result<S, ScaleError>) -> Result<Vec<S>, ScaleError> {
     let of_part = |(part, of): (usize, &P)| {
         scaled(of).map_err(|error| ScaleError::Part { part, error: Box::new(error) })
@@ -153,7 +152,7 @@ fn all_scaled<P, S>(parts: &[P], scaled: impl Fn(&P) -> Result<S, ScaleError>) -
     parts.iter().enumerate().map(of_part).collect()
 }
 
-/// Refuses what is no factor.
+/// Rejects invalid factors.
 fn check(factors: &[f32]) -> Result<(), ScaleError> {
     match factors.iter().position(|factor| !factor.is_finite() || *factor == 0.0) {
         Some(axis) => Err(ScaleError::Factor { axis, value: factors[axis] }),
@@ -161,7 +160,7 @@ fn check(factors: &[f32]) -> Result<(), ScaleError> {
     }
 }
 
-/// A radius times the size that all factors share: nothing stays nothing under any factors.
+/// A radius times the magnitude that all factors share; zero stays zero under any factors.
 fn scaled_radius(radius: f32, factors: &[f32]) -> Result<f32, ScaleError> {
     match radius {
         0.0 => Ok(0.0),
@@ -174,8 +173,8 @@ fn are_of_one_size(factors: &[f32]) -> bool {
     factors.iter().all(|factor| factor.abs() == factors[0].abs())
 }
 
-/// The normal of a plane through the origin, under factors for its points. Bit for bit where they are of one size; else
-/// rounded once, since only a power of two is divided out so that it fits an f32.
+/// The normal of a plane through the origin whose points are scaled by some factors. The same bits, up to signs, if the
+/// factors have one magnitude; otherwise rounded once, since only a power of two is divided out to fit f32.
 fn scaled_normal<const N: usize>(normal: [f32; N], factors: [f32; N]) -> [f32; N] {
     if are_of_one_size(&factors) {
         return array::from_fn(|axis| normal[axis] * factors[axis].signum());

@@ -13,13 +13,13 @@ use crate::shape::Shape2;
 use glam::Vec2;
 
 impl Shape2 {
-    /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` takes pixels to metres
-    /// where a metre has 32 of them, and negative ones mirror. A new shape, which shares nothing with the old one.
+    /// The shape with every local point multiplied by the factors: `Vec2::splat(1.0 / 32.0)` converts pixels to metres
+    /// at 32 pixels per metre; negative factors mirror. The result is a new shape that shares no data with the old one.
     ///
-    /// Vertices and edges keep their numbers, except under a mirror: a mirrored polygon is still counter-clockwise, and
-    /// a mirrored chain still has its front in front, so both are numbered the other way around; corners of rectangles
-    /// are renumbered. Rectangles that are turned in a compound become polygons if the factors differ. Vertices of a
-    /// chain that come too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
+    /// Vertices and edges keep their numbers unless the factors mirror. A mirrored polygon is still counter-clockwise,
+    /// and a mirrored chain keeps its front, so both are numbered in reverse; corners of rectangles are renumbered.
+    /// Rectangles that are rotated in a compound become polygons if the factors differ. Vertices of a chain that come
+    /// too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Rect, Shape2, glam::Vec2};
@@ -33,7 +33,7 @@ impl Shape2 {
     /// ```
     ///
     /// # Errors
-    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a result
+    /// A factor that is zero or not finite; a round shape or a rounding with factors that differ in magnitude; a result
     /// that is out of range or has lost a dimension.
     pub fn scaled(&self, factors: Vec2) -> Result<Self, ScaleError> {
         check(&factors.to_array())?;
@@ -53,16 +53,16 @@ impl Shape2 {
     }
 }
 
-/// Whether the factors turn the way around.
+/// Whether the factors reverse the orientation.
 fn do_mirror(factors: Vec2) -> bool {
     (factors.x < 0.0) != (factors.y < 0.0)
 }
 
-/// A convex shape of its vertices, moved, and its radius.
+/// The convex shape with its vertices moved and its radius scaled.
 fn moved(shape: &Shape2, place: impl Fn(Vec2) -> Vec2, factors: Vec2) -> Result<Shape2, ScaleError> {
     let radius = scaled_radius(shape.radius(), &factors.to_array())?;
     Ok(match shape {
-        // A point: it has no radius that `Circle::new` would take.
+        // A point, whose radius `Circle::new` would reject.
         Shape2::Circle(_) if radius == 0.0 => shape.clone(),
         Shape2::Circle(_) => Circle::new(radius)?.into(),
         Shape2::Capsule(capsule) => {
@@ -73,15 +73,15 @@ fn moved(shape: &Shape2, place: impl Fn(Vec2) -> Vec2, factors: Vec2) -> Result<
             let [from, to] = segment.ends().map(place);
             Segment2::new(from, to)?.into()
         }
-        // A polygon, or a rectangle that is turned in a compound. Nothing else comes here.
+        // A polygon, or a rectangle that is rotated in a compound. Nothing else comes here.
         _ => {
             let mut outline: Vec<Vec2> =
                 shape.core().vertices().iter().map(|&vertex| place(vertex)).collect();
             if do_mirror(factors) {
                 outline[1..].reverse();
             }
-            // Rounding may have pushed a vertex into the hull of the others, by less than it moves any: the hull is the
-            // shape then.
+            // Rounding may have pushed a vertex inside the hull of the others, by less than it moves any vertex: then
+            // the hull is the shape.
             let new = Polygon::new(&outline).or_else(|_| Polygon::hull_of(&outline))?;
             let error = if let Shape2::Polygon(polygon) = shape { polygon.error() } else { 0.0 };
             let error = f64::from(error) * f64::from(factors.abs().max_element());

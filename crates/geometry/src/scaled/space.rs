@@ -15,16 +15,19 @@ use crate::triangle::Triangle3;
 use glam::{Vec2, Vec3};
 
 impl Shape3 {
-    /// The shape with every local point multiplied by the factors: `Vec3::splat(0.01)` takes centimetres to metres, and
-    /// negative ones mirror. A new shape, which shares nothing with the old one.
+    /// The shape with every local point multiplied by the factors: `Vec3::splat(0.01)` converts centimetres to metres;
+    /// negative factors mirror. The result is a new shape that shares no data with the old one.
     ///
-    /// Triangles of a mesh, cells of a height field and parts of a compound keep their numbers. So do the vertices of
-    /// solid hulls, unless a hull becomes thousands of times flatter and loses some. A mirror renumbers the corners of
-    /// cuboids and of flat hulls. Cuboids that are turned in a compound become hulls if the factors differ. A flat hull
-    /// stays flat if its new vertices, rounded, still lie in one plane (along two axes, or under powers of two);
-    /// otherwise it becomes a solid, as thick as a rounding. [`Hull::error`] is scaled as well, without the roundings
-    /// of new vertices. Triangles that become too small are dropped, as in [`TriMesh::new`]. Cost: that of making the
-    /// shape.
+    /// - Triangles of a mesh, cells of a height field and parts of a compound keep their numbers. So do the vertices of
+    ///   solid hulls, unless a hull becomes thousands of times flatter and loses some. Mirroring renumbers the corners
+    ///   of cuboids and of flat hulls.
+    /// - Cuboids that are rotated in a compound become hulls if the factors differ.
+    /// - A flat hull stays flat if its new vertices, rounded, still lie in one plane (if it lies along two axes, or
+    ///   with powers of two); otherwise it becomes a solid as thick as a rounding.
+    /// - [`Hull::error`] is scaled as well, without the rounding of new vertices.
+    /// - Triangles that become too small are dropped, as in [`TriMesh::new`].
+    ///
+    /// Cost: that of making the shape.
     ///
     /// ```
     /// use asunder_geometry::{Capsule3, Hull, Shape3, glam::Vec3};
@@ -41,8 +44,8 @@ impl Shape3 {
     /// ```
     ///
     /// # Errors
-    /// A factor that is zero or not finite; a round shape or a rounding under factors that differ in size; a height
-    /// field under negative ones; a result that is out of range, or a hull that has lost a dimension.
+    /// A factor that is zero or not finite; a round shape or a rounding with factors that differ in magnitude; a height
+    /// field with negative ones; a result that is out of range, or a hull that has lost a dimension.
     pub fn scaled(&self, factors: Vec3) -> Result<Self, ScaleError> {
         check(&factors.to_array())?;
         match self {
@@ -62,12 +65,12 @@ impl Shape3 {
     }
 }
 
-/// A convex shape of its vertices, moved, and its radius.
+/// The convex shape with its vertices moved and its radius scaled.
 fn moved(shape: &Shape3, place: impl Fn(Vec3) -> Vec3, factors: Vec3) -> Result<Shape3, ScaleError> {
     let radius = scaled_radius(shape.radius(), &factors.to_array())?;
     let all = || -> Vec<Vec3> { shape.core().vertices().iter().map(|&vertex| place(vertex)).collect() };
     Ok(match shape {
-        // A point: it has no radius that `Sphere::new` would take.
+        // A point, whose radius `Sphere::new` would reject.
         Shape3::Sphere(_) if radius == 0.0 => shape.clone(),
         Shape3::Sphere(_) => Sphere::new(radius)?.into(),
         Shape3::Capsule(capsule) => {
@@ -90,7 +93,7 @@ fn moved(shape: &Shape3, place: impl Fn(Vec3) -> Vec3, factors: Vec3) -> Result<
             let error = f64::from(hull.error()) * f64::from(factors.abs().max_element());
             new.left_out(error).rounded(radius)?.into()
         }
-        // A cuboid that is turned in a compound. Nothing else comes here.
+        // A cuboid that is rotated in a compound. Nothing else comes here.
         _ => Hull::from_points(&all())?.rounded(radius)?.into(),
     })
 }

@@ -10,7 +10,7 @@ fn corner(random: &mut Rand32) -> Vec3 {
     Vec3::new(number(random), number(random), number(random))
 }
 
-/// Every kind in space that any factors can scale.
+/// Shapes of every kind in space that any factors can scale.
 fn polyhedra(random: &mut Rand32) -> Vec<Shape3> {
     let points: Vec<Vec3> = (0..24).map(|_| corner(random)).collect();
     let turn = Quat::from_xyzw(0.5, 0.1, -0.4, 0.6);
@@ -31,8 +31,8 @@ fn polyhedra(random: &mut Rand32) -> Vec<Shape3> {
     ]
 }
 
-/// A point is in the scaled shape where the point that it comes from is in the old one: of random points, none of which
-/// is within rounding of a surface.
+/// A point is in the scaled shape exactly if its preimage is in the old one: for random points, none of which is within
+/// rounding of a surface.
 #[test]
 fn a_scaled_shape_holds_what_it_held() {
     let mut random = Rand32::new(31);
@@ -52,7 +52,7 @@ fn a_scaled_shape_holds_what_it_held() {
     assert!(held[0] > 5000 && held[1] > 300, "{held:?}");
 }
 
-/// Supports too: those of what is flat, which holds no random point.
+/// The same for support points, as flat shapes contain no random points.
 #[test]
 fn a_scaled_shape_reaches_as_far() {
     let mut random = Rand32::new(32);
@@ -62,7 +62,7 @@ fn a_scaled_shape_reaches_as_far() {
             let scaled = shape.scaled(factors).unwrap();
             for _ in 0..20 {
                 let along = corner(&mut random).as_dvec3();
-                // Along a direction in scaled space the old shape is asked about its own.
+                // The direction in scaled space, mapped to the old shape.
                 let before =
                     shape.support(along * factors.as_dvec3()).map(|point| point * factors.as_dvec3());
                 let [is, was] =
@@ -106,7 +106,7 @@ fn a_mirrored_mesh_is_seen_from_the_same_side() {
         };
         assert!(scaled.is_one_sided());
         let [a, b, c] = scaled.triangles()[0].map(|number| scaled.vertices()[number as usize]);
-        // Its front was up; a mirror that turns up into down takes it along.
+        // Its front was up; a mirror that flips up and down flips it, too.
         let up = (b - a).cross(c - a).y.signum();
         assert_eq!(up, factors.y.signum(), "{factors}");
     }
@@ -150,7 +150,7 @@ fn planes_keep_their_side_under_any_factors() {
     assert!(steep.contains(DVec2::new(-0.25, -0.75)) && !steep.contains(DVec2::new(-0.25, -0.25)));
 }
 
-/// Found by fresh eyes: the normal was divided by its largest component, and so rounded, by a factor of one even.
+/// Symptom: the normal was divided by its largest component, and so rounded even by a factor of one.
 #[test]
 fn a_plane_keeps_its_bits_under_one_factor() {
     let mut random = Rand32::new(35);
@@ -167,7 +167,7 @@ fn a_plane_keeps_its_bits_under_one_factor() {
             unreachable!()
         };
         let Shape3::HalfSpace(halved) = halved else { unreachable!() };
-        // Exact up to one power of two for all.
+        // Exact up to a common power of two.
         let share = scaled.normal().x / halved.normal().x;
         assert_eq!(halved.normal() * share, scaled.normal());
         let slope = Shape2::from(HalfPlane::new(normal.truncate()).unwrap());
@@ -247,7 +247,7 @@ fn a_mirrored_polygon_and_chain_stay_as_they_are_seen() {
     assert_eq!(flipped.vertices(), [(0.0, 0.0), (0.0, 3.0), (-2.0, 1.0), (-2.0, 0.0)].map(Vec2::from));
     let Shape2::Polygon(turned) = polygon.scaled(-Vec2::ONE).unwrap() else { unreachable!() };
     assert_eq!(turned.vertices(), outline.map(|corner| -corner));
-    // To the left: its front, at the right of the way, is up.
+    // It leads to the left, so its front, on the right, is up.
     let ground = Chain::open([Vec2::X, Vec2::ZERO, Vec2::new(-1.0, 0.5)]).unwrap().one_sided();
     let Shape2::Chain(flipped) = Shape2::from(ground).scaled(flip).unwrap() else { unreachable!() };
     assert_eq!(flipped.vertices(), [Vec2::new(1.0, 0.5), Vec2::ZERO, Vec2::NEG_X]);

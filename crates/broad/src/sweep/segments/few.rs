@@ -1,4 +1,4 @@
-//! Few boxes against any number, eight at a time.
+//! Compares few boxes with any number of others, eight at a time.
 
 use super::{Item, Walk, in_order};
 use crate::index::node::{Node, WIDTH};
@@ -6,14 +6,15 @@ use crate::sweep::trial::note;
 use crate::width::{Kernel, Width, widest};
 use core::ops::ControlFlow;
 
-/// Boxes that are compared with all others rather than cut further.
+/// So few boxes are compared with all others, and not cut further.
 pub(super) const FEW: usize = 64;
 
-/// Those few, side by side.
+/// Those few, side by side in nodes of eight.
 pub(super) type Lanes = [Node; FEW / WIDTH];
 
 impl<V: FnMut(u32, u32) -> ControlFlow<()>> Walk<'_, V> {
-    /// Pairs of a span and a point that overlap; where an axis is given, those of which the span begins first on it.
+    /// Finds the pairs of a span and a point that overlap; where an axis is given, only those whose span begins first
+    /// on it.
     pub(super) fn compare(
         &mut self,
         spans: &[Item],
@@ -25,8 +26,8 @@ impl<V: FnMut(u32, u32) -> ControlFlow<()>> Walk<'_, V> {
 }
 
 impl<V: FnMut(u32, u32) -> ControlFlow<()>> Walk<'_, V> {
-    /// Pairs of one box of each that overlap on an axis: in the order of their lower ends, each with those that begin
-    /// in it.
+    /// Finds the pairs of a box of either set that overlap on an axis, by sort and sweep: boxes in order of their lower
+    /// ends, each with those of the other set that begin within it.
     pub(super) fn scan(&mut self, ones: &mut [Item], others: &mut [Item], axis: usize) -> ControlFlow<()> {
         for items in [&mut *ones, &mut *others] {
             note(items.len() * items.len().max(2).ilog2() as usize);

@@ -1,34 +1,33 @@
-//! A bound on what a walk through boxes may cost: all pairs of two sets in O(n log^3 n + pairs), however they lie.
+//! A sweep of bounded cost, by segment trees: all pairs of overlapping boxes in O(n log^3 n + pairs), however they lie.
 //!
-//! Two boxes overlap on an axis where the lower end of one lies in the interval of the other. So every box is once a
-//! *span*, an interval on the axis at hand, and once a *point*, its lower end there; the question is which points lie
-//! in which spans, and which of these pairs overlap on the axes that are left.
+//! Two boxes overlap on an axis where the lower end of one lies in the interval of the other. So every box plays two
+//! roles: a *span*, its interval on the current axis, and a *point*, its lower end there. The question is which points
+//! lie in which spans, and which of these pairs overlap on the remaining axes.
 //!
 //! ```text
-//! spans, points, a stretch of the axis that holds all points:
-//!   few of either: compare all, eight at a time                                         few
-//!   spans that cover the stretch hold every point: they and the points go on to the
-//!     next axis, in both roles, as either may have the lower end there; on the last
-//!     axis both are sorted and swept
-//!   cut the points in halves; each half, with the spans that reach it but do not cover
-//!     all, is the same again
+//! given spans, points, and a stretch of the axis that contains all points:
+//!   few spans or few points: compare all, eight at a time                               few
+//!   spans that cover the stretch contain every point: they go on to the next axis with
+//!     the points, twice with roles swapped, as either may have the lower end there; on
+//!     the last axis, sort and sweep both instead
+//!   cut the points in halves; recurse into each half with the spans that reach it but
+//!     do not cover the whole stretch
 //! ```
-//! A span is passed on to at most two of the stretches of a depth, those with its ends; so a depth costs what there
-//! are spans and points, and each axis has a logarithm of depths. That is a segment tree of which no node is ever
-//! stored: Zomorodian & Edelsbrunner, "Fast software for box intersections" (2000).
+//! At each depth a span is passed on to at most two stretches, those with its ends. So a depth costs as much as there
+//! are spans and points, and each axis has log n depths. That is a segment tree, no node of which is ever stored:
+//! Zomorodian & Edelsbrunner, "Fast software for box intersections" (2000).
 //!
-//! 1. Lower ends that are equal are told apart by the place of the box. So there are no ties: of two boxes exactly one
-//!    begins first, halves are halves where all boxes are the same, and touching or unbounded boxes are nothing
-//!    special.
-//! 2. Sets are moved to the front of their slice, never copied: the whole works in two copies of the boxes (64 bytes a
-//!    box), with no other memory.
-//! 3. A cut that leaves less than a quarter on a side is made again, exactly: a path is at most 2.5 log2 n deep an
-//!    axis, and so is the stack.
-//! 4. On the last axis a sort and a sweep in place of both roles: a third less in all (needles, 100,000).
+//! 1. Equal lower ends are ordered by the place of the box, so there are no ties: of two boxes exactly one begins
+//!    first, a cut gives halves even where all boxes are the same, and touching or unbounded boxes are no special case.
+//! 2. Sets are partitioned in place, never copied: the only memory is two copies of the boxes (64 bytes per box).
+//! 3. A cut by a sample that leaves less than a quarter on one side is replaced by the exact median: a path, and so the
+//!    stack, is at most 2.5 log2 n deep per axis.
+//! 4. On the last axis a sort and a sweep replace the two passes with roles swapped: a third less in all (needles,
+//!    100,000).
 //!
-//! Tried (AMD EPYC, Zen 4, 2026-11-22): 32 boxes that are compared in place of 64, 1.1 to 1.4 times as long; spans and
-//! points that go on limited to each other's bounds, no change; bounds as whole numbers, 1.3 to 1.8 times as long, for
-//! want of the kernel that the index has.
+//! Tried (AMD EPYC, Zen 4, 2026-11-22): comparing from 32 boxes down in place of 64, 1.1 to 1.4 times as long; limiting
+//! spans and points that go on to each other's bounds, no change; bounds as integers, 1.3 to 1.8 times as long, as the
+//! kernel of the index cannot be used for them.
 
 mod few;
 
@@ -47,14 +46,14 @@ pub(super) struct Item {
     place: u32,
 }
 
-/// A lower end, and whose: no two are equal.
+/// A lower end, and the place of its box as a tie-breaker: no two keys are equal.
 pub(super) type Key = (f32, u32);
 
 impl Item {
-    /// Nothing, if the box is no set of points.
+    /// `None` if the box is empty.
     #[inline(always)]
     pub(super) fn new<B: Bounds>(bounds: &B, place: u32) -> Option<Self> {
-        // Minus zero becomes zero: there is one order of floats then.
+        // Turns -0 into 0, so that `total_cmp` and `<` agree.
         let ([a, b, c], [d, e, f]) = bounds.corners();
         let sides = [a + 0.0, b + 0.0, c + 0.0, d + 0.0, e + 0.0, f + 0.0];
         bounds.is_valid().then_some(Self { sides, place })
@@ -85,15 +84,15 @@ pub(super) fn in_order(one: &Key, other: &Key) -> Ordering {
     one.0.total_cmp(&other.0).then(one.1.cmp(&other.1))
 }
 
-/// The axes in the order in which a walk takes them: that along which columns are swept is one on which boxes are
-/// short. The plane has two.
+/// The axes in the order in which a walk takes them, the sweep axis of the columns first, as boxes are short on it; and
+/// how many there are: in the plane two.
 pub(super) fn axes_from<B: Bounds>(sweep: usize) -> ([usize; 3], usize) {
     let axes = [0, 1, 2].map(|offset| (sweep + offset) % B::AXES.max(1));
     (axes, B::AXES.min(3))
 }
 
-/// What all pairs of so many boxes cost, a box, in the candidates that a sweep of columns compares in that time: as far
-/// as was measured at the worst (needles; a third of it where boxes are cubes of all sizes).
+/// Cost per box of finding all pairs of so many boxes by segments, in candidates that a sweep of columns compares in
+/// the same time. It is the worst measured (needles; cubes of all sizes take a third of it).
 pub(super) fn worth(boxes: usize) -> usize {
     if way() == Way::Columns {
         return usize::MAX >> (usize::BITS / 2);
@@ -105,7 +104,7 @@ pub(super) fn worth(boxes: usize) -> usize {
 /// See [`worth`].
 const CANDIDATES_A_NODE: usize = 12;
 
-/// Two copies of the boxes of a sweep.
+/// Scratch memory: the boxes of a sweep in both roles.
 #[derive(Debug, Default)]
 pub(super) struct Segments {
     spans: Vec<Item>,
@@ -117,9 +116,9 @@ impl Segments {
         (self.spans.capacity() + self.points.capacity()) * size_of::<Item>()
     }
 
-    /// Hands over the places of every two of these boxes that overlap and of which the one that begins later on the
-    /// first axis begins in the slab, each two once, until told to stop. The axes are taken in the order given: first
-    /// one on which boxes are short.
+    /// Hands over the places of every two boxes that overlap, each pair once, until told to stop. A pair counts only if
+    /// the box that begins later on the first axis begins in the slab. Axes are taken in the given order; the first
+    /// should be one on which boxes are short.
     pub(super) fn sweep(
         &mut self,
         items: impl Iterator<Item = Item>,
@@ -142,7 +141,7 @@ impl Segments {
     }
 }
 
-/// Keys from one up to another.
+/// Keys from `start` up to `end`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
     pub(super) start: Key,
@@ -153,20 +152,20 @@ impl Slab {
     pub(super) const ALL: Self = Self { start: (f32::NEG_INFINITY, 0), end: (f32::INFINITY, u32::MAX) };
 }
 
-/// What a walk carries along.
+/// The context of a walk.
 struct Walk<'a, V> {
     visit: &'a mut V,
     lanes: Lanes,
 }
 
-/// A stretch of an axis: its points' keys are none before `first`, and their lower ends none above `last`.
+/// A stretch of an axis: no key of its points is before `first`, no lower end above `last`.
 #[derive(Clone, Copy)]
 struct Stretch {
     first: Key,
     last: f32,
 }
 
-/// Pairs of a span and a point that lies in it on the first of the axes, and that overlap on all others.
+/// Finds the pairs of a span and a point that lies in it on the first axis, if they overlap on all others too.
 fn meet<V: FnMut(u32, u32) -> ControlFlow<()>>(
     walk: &mut Walk<'_, V>,
     axes: &[usize],
@@ -182,7 +181,7 @@ fn meet<V: FnMut(u32, u32) -> ControlFlow<()>>(
     descend(walk, axes, Stretch { first, last: last.0 }, &mut spans[..reach], points)
 }
 
-/// The same, of the points of a stretch, and spans that begin before its end and end behind its start.
+/// The same for the points of a stretch, and spans that begin before its end and end behind its start.
 fn descend<V: FnMut(u32, u32) -> ControlFlow<()>>(
     walk: &mut Walk<'_, V>,
     axes: &[usize],
@@ -209,7 +208,7 @@ fn descend<V: FnMut(u32, u32) -> ControlFlow<()>>(
     descend(walk, axes, Stretch { first: key, ..stretch }, &mut spans[..reach], behind)
 }
 
-/// Pairs of a span and a point that overlap on all axes that are left.
+/// Finds the pairs of a span and a point that overlap on all remaining axes.
 fn pass_on<V: FnMut(u32, u32) -> ControlFlow<()>>(
     walk: &mut Walk<'_, V>,
     axes: &[usize],
@@ -226,11 +225,11 @@ fn pass_on<V: FnMut(u32, u32) -> ControlFlow<()>>(
     meet(walk, axes, points, spans)
 }
 
-/// Points that are looked at for a cut.
+/// Points sampled for a cut.
 const SAMPLE: usize = 11;
 
-/// Moves points of lesser keys before those of greater ones; returns how many they are, and the least key of the
-/// others. On both sides there is a quarter at least.
+/// Partitions points at a key, with at least a quarter of them on each side. Returns how many are before it, and that
+/// key, the least of those behind.
 fn halve(points: &mut [Item], axis: usize) -> (usize, Key) {
     let step = points.len() / SAMPLE;
     let mut sample = [(0.0, 0); SAMPLE];
@@ -249,11 +248,11 @@ fn halve(points: &mut [Item], axis: usize) -> (usize, Key) {
     (half, middle.key(axis))
 }
 
-/// Moves items of a kind to the front; returns how many they are.
+/// Moves the wanted items to the front; returns how many they are.
 #[inline(always)]
 fn part(items: &mut [Item], is_wanted: impl Fn(&Item) -> bool) -> usize {
     note(items.len());
-    // Often there is none, and then nothing to be written.
+    // Often there is none, and nothing needs to be written.
     let Some(first) = items.iter().position(&is_wanted) else { return 0 };
     items.swap(0, first);
     let mut count = 1;

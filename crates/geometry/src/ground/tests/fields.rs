@@ -1,4 +1,4 @@
-//! Height fields against meshes of the same triangles.
+//! Tests of height fields against meshes of the same triangles.
 
 use super::Dice;
 use crate::aabb::Aabb3;
@@ -28,7 +28,7 @@ pub(super) fn random(columns: usize, rows: usize, seed: u64) -> HeightField {
     field.with_holes(holes).unwrap()
 }
 
-/// The same as a mesh; at holes, triangles that are dropped keep the numbers.
+/// The same as a mesh; dropped triangles at holes keep the numbering.
 fn as_mesh(field: &HeightField) -> TriMesh {
     let (columns, rows) = (field.columns(), field.rows());
     let mut vertices = vec![];
@@ -141,7 +141,7 @@ fn a_field_finds_what_a_mesh_of_its_triangles_finds() {
             assert_eq!(height.is_none(), above(field).is_empty() && above(mesh).is_empty(), "{point}");
             let Some(height) = height else { continue };
             counts[1] += 1;
-            // On one of the triangles below it, or a rounding of f32 from it.
+            // On one of the triangles below it, up to an f32 rounding.
             let triangles = above(mesh).into_iter().filter_map(|number| mesh.triangle(number));
             let is_on = |triangle: crate::Triangle3| {
                 let [normal, _] = triangle.normals();

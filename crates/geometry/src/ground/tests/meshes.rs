@@ -39,7 +39,7 @@ pub(super) fn all() -> Vec<Named> {
     let mut flipped = grid("flipped", 10, &noise);
     flipped.triangles.iter_mut().step_by(3).for_each(|triangle| triangle.swap(0, 2));
     meshes.push(flipped);
-    // Drawn from both sides: all of it, and here and there.
+    // Modelled from both sides: all of it, and here and there.
     for step in [1, 3] {
         let mut leaf = grid(&format!("leaf {step}"), 8, &noise);
         let backs: Vec<_> = leaf.triangles.iter().step_by(step).map(|&[a, b, c]| [b, a, c]).collect();
@@ -116,7 +116,7 @@ fn fan(name: &str, count: u32) -> Named {
     }
     let mut triangles: Vec<[u32; 3]> = (0..count).map(|i| [i % 2, 1 - i % 2, i + 2]).collect();
     triangles.extend((0..count).step_by(4).map(|i| [i + 2, 0, 1]));
-    // Two that are the same are one, and one with another makes a pair: an edge where three meet, and one where two do.
+    // Duplicates count once: this makes an edge where three triangles meet, and one where two do.
     triangles.extend([[2, 3, 0], [3, 2, 0], [2, 3, 1]]);
     Named { name: name.to_owned(), vertices, triangles }
 }
@@ -134,7 +134,7 @@ fn moebius(name: &str, count: u32) -> Named {
     let mut triangles = Vec::new();
     for i in 0..count {
         let (a, b) = (2 * i, 2 * i + 1);
-        // After a turn, left is right.
+        // After a full turn of the strip, left becomes right.
         let (c, d) = if i + 1 < count { (a + 2, b + 2) } else { (1, 0) };
         triangles.extend([[a, b, c], [c, b, d]]);
     }
@@ -157,7 +157,7 @@ fn cubes(name: &str) -> Named {
     mesh
 }
 
-/// Triangles with one box.
+/// Triangles that share one box.
 fn one_box(name: &str, count: u32) -> Named {
     let mut dice = Dice::new(3);
     let mut vertices = vec![Vec3::ZERO, Vec3::ONE];

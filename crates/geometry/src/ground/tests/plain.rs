@@ -1,4 +1,4 @@
-//! What is said of a mesh, by its definition: loops over all triangles and places.
+//! A reference implementation of meshes, straight from the definitions: loops over all triangles and positions.
 
 use super::Named;
 use crate::ground::Prominent;
@@ -6,14 +6,14 @@ use crate::tolerance::FLAT;
 use crate::triangle::Triangle3;
 use glam::{DVec3, Vec3};
 
-/// Of which triangle, which edge, and from where to where.
+/// The triangle, the edge, and its two ends.
 type HalfEdge = (u32, usize, [Vec3; 2]);
 
 pub(super) struct Plain<'a> {
     given: &'a Named,
     is_one_sided: bool,
     kept: Vec<bool>,
-    /// Half-edges of kept triangles, by the places of their ends.
+    /// Half-edges of kept triangles, by the positions of their ends.
     half_edges: Vec<HalfEdge>,
 }
 
@@ -39,7 +39,7 @@ impl<'a> Plain<'a> {
         self.given.triangles[number as usize].map(|vertex| self.given.vertices[vertex as usize])
     }
 
-    /// Corners as bits, in one order; of what has one side, from the least on.
+    /// Corners as bits, sorted; in one-sided meshes rotated to start with the least.
     fn places(&self, number: u32) -> Vec<[u32; 3]> {
         let bits = |corner: Vec3| corner.to_array().map(|part| (part + 0.0).to_bits());
         let mut places: Vec<_> = self.corners(number).map(bits).to_vec();
@@ -74,7 +74,8 @@ impl<'a> Plain<'a> {
         (*ends == [to, from]).then_some((*other, *twin))
     }
 
-    /// The same where a triangle and its back lie in two sheets: the one next to it, and its back if there is none.
+    /// The same if a triangle and its back are in two sheets: the neighbour is the next triangle, or the back if there
+    /// is none.
     fn neighbor_of_one_sheet(
         &self,
         number: u32,
@@ -106,8 +107,8 @@ impl<'a> Plain<'a> {
         [sine > least, -sine > least]
     }
 
-    /// The sine of the bend along an edge, and whether it is folded back: by the way from the edge to the corner beyond
-    /// it.
+    /// The sine of the bend at an edge, and whether it is folded back, from the direction from the edge to the opposite
+    /// corner.
     fn bend(&self, number: u32, edge: usize) -> Option<(f64, bool)> {
         let (other, twin) = self.neighbor(number, edge)?;
         let corners = self.corners(number).map(|corner| corner.as_dvec3());

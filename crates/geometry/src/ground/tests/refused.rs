@@ -1,4 +1,4 @@
-//! What is no ground.
+//! Tests of input that is rejected as ground.
 
 use crate::height_field::{HeightField, HeightFieldError};
 use crate::mesh::{MeshError, TriMesh};

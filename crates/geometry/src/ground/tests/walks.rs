@@ -1,4 +1,4 @@
-//! The three walks, against all boxes.
+//! Tests of the three traversals against all boxes.
 
 use super::meshes::{Named, all, grid};
 use super::{Dice, fields, mesh_of};
@@ -19,7 +19,7 @@ fn shapes() -> Vec<(String, Shape3)> {
         "large".to_owned(),
         mesh_of(&grid("large", 70, |column, row| (column * row % 7) as f32)).into(),
     ));
-    // So many vertices a triangle that the tree holds boxes alone.
+    // So many vertices per triangle that the tree holds only boxes.
     let mut spare = grid("spare", 40, |column, row| (column * row % 5) as f32);
     spare.vertices.resize(3 * spare.triangles.len(), Vec3::ZERO);
     shapes.push(("spare".to_owned(), mesh_of(&spare).into()));
@@ -62,7 +62,7 @@ fn boxes(ground: Ground<'_>) -> Vec<(u32, Aabb3)> {
     (0..ground.triangle_count()).filter_map(|number| Some((number, box_of(ground, number)?))).collect()
 }
 
-/// A point about the ground, and how large it is.
+/// A point near the ground, and a size.
 fn somewhere(dice: &mut Dice, shape: &Shape3) -> (Vec3, f32) {
     let size = shape.outer_radius();
     let mut part = || dice.between(-1.2, 1.2) * size;
@@ -113,7 +113,7 @@ fn what_is_near_is_what_a_loop_over_all_boxes_finds() {
     assert!(met > 10_000 && missed > 10_000, "{met} {missed}");
 }
 
-/// When a moving box meets another, by its own sides; nothing if it does not. A slack of plus or minus some rounding.
+/// When a moving box meets another, by slab tests; `None` if it does not. `slack` is some rounding, up or down.
 fn meets(one: &Aabb3, [from, along, grown]: [DVec3; 3], slack: f64) -> Option<f64> {
     let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
     for axis in 0..3 {
@@ -171,7 +171,7 @@ fn what_is_in_the_way_is_what_a_loop_over_all_boxes_finds() {
                 met += usize::from(is_found);
                 missed += usize::from(!is_found);
             }
-            // The first that any limit allows is the same with a limit that shrinks to it.
+            // The first box under any limit is also found with a limit that shrinks to it.
             let first =
                 boxes.iter().filter_map(|(_, one)| meets(one, asked, 0.0)).fold(f64::INFINITY, f64::min);
             if first <= limit {
@@ -210,7 +210,7 @@ fn what_is_nearest_is_what_a_loop_over_all_boxes_finds() {
             let mut found = vec![];
             ground.visit_nearest(&bounds, limit, |number| {
                 found.push(number);
-                // More than before is no limit, and neither is what is no number.
+                // Neither a greater limit nor NaN may change the limit.
                 if round % 2 == 0 { f64::INFINITY } else { f64::NAN }
             });
             found.sort_unstable();
@@ -264,7 +264,7 @@ fn questions_that_are_none_find_nothing() {
         for (bounds, limit) in [(here, nan), (here, -1.0), (Aabb3::new(here.max, here.min), 1e9)] {
             ground.visit_nearest(&bounds, limit, never);
         }
-        // In no direction at all, what overlaps is met at once.
+        // With direction zero, overlapping boxes are met at once.
         let mut count = 0;
         ground.visit_along(center, DVec3::ZERO, wide, 0.0, |_| {
             count += 1;

@@ -1,23 +1,23 @@
-//! Which boxes of a tree reach out furthest: how what is around all of them is found without looking at all.
+//! Finds the boxes of a tree that reach out furthest, to bound all of them without visiting all.
 //!
 //! ```text
-//! to each of six sides: from node to node what reaches furthest there, down to a box, which is handed over
-//! then all boxes, but for those, and nodes, that reach no further than what was handed over
+//! for each of six sides: descend to the child that reaches furthest there, down to a box, and hand that over
+//! then traverse the tree, without nodes and boxes that reach no further than what has been handed over
 //! ```
-//! The first is not sure to find what is furthest, since the box of a node that is turned reaches further than what is
-//! in it. It finds what lets the second pass over nearly all.
+//! The first pass may miss the furthest box, since the turned box of a node reaches further than its contents. But what
+//! it finds lets the second pass skip nearly everything.
 
 use super::walk::STACK;
 use super::{EMPTY, IS_BOX, Node, Sides, Tree};
 use arrayvec::ArrayVec;
 
-/// How far something reaches to six sides: any numbers that are greater further out.
+/// How far something reaches to six sides, in any numbers that grow outwards.
 pub(crate) type Reach = [f64; 6];
 
 impl Tree {
-    /// Hands boxes to `visitor`, some more than once, which returns how far all that it was handed reaches by then:
-    /// until no other reaches further. `reach_of` tells how far a box can reach, no less than all that is in it. Cost:
-    /// logarithmic in the boxes, and linear in those about which `reach_of` leaves it open.
+    /// Hands boxes to `visitor`, some more than once, until no other can reach further. `visitor` returns how far
+    /// everything that it has been handed so far reaches. `reach_of` gives an upper bound of how far the contents of a
+    /// box reach. Cost: logarithmic in the boxes, and linear in those that `reach_of` cannot rule out.
     pub(crate) fn visit_outermost(
         &self,
         reach_of: impl Fn(Sides) -> Reach,
@@ -50,7 +50,7 @@ impl Tree {
             }
             for (child, sides) in self.nodes[slot as usize].children() {
                 let reach = reach_of(sides);
-                // What is no number may reach anywhere.
+                // NaN may reach anywhere.
                 let is_inside = (0..6).all(|side| reach[side] <= reached[side]);
                 if !is_inside {
                     stack.push(child);
@@ -61,7 +61,7 @@ impl Tree {
 }
 
 impl Node {
-    /// What is in its places, and the boxes around them.
+    /// The slots in use, and their boxes.
     fn children(&self) -> impl Iterator<Item = (u32, Sides)> + '_ {
         let filled = self.slots.iter().enumerate().filter(|&(_, &slot)| slot != EMPTY);
         filled.map(|(place, &slot)| (slot, core::array::from_fn(|side| self.sides[side][place])))

@@ -1,5 +1,5 @@
-//! Walks down a tree of boxes: all that overlap one, and whatever a rank puts in order, as what a moved box crosses or
-//! what is nearest.
+//! Traversals of a tree: all boxes that overlap one, and boxes in an order, such as those a moved box crosses or the
+//! nearest.
 
 use super::{EMPTY, IS_BOX, IS_LEAF, Leaf, MOST_DEPTH, Node, Rows, Sides, Tree, WIDTH};
 use crate::aabb::{Aabb3, Bounds};
@@ -8,39 +8,39 @@ use arrayvec::ArrayVec;
 use core::ops::ControlFlow;
 use glam::{DVec3, Vec3};
 
-/// What waits while another is looked at: all but one of each node that stands above it.
+/// Most entries on the stack: all but one child of each ancestor.
 pub(super) const STACK: usize = WIDTH * (MOST_DEPTH + 1);
 
-/// Boxes that wait, each with its place in the order. Not an array, which is written all over before it is used: of a
-/// ray on 20,000 triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).
+/// Boxes that wait, each with its place in the order. Not an array, which would have to be initialised: for a ray on
+/// 20,000 triangles that was 4 % of the time (AMD EPYC, Zen 4, 2026-11-25).
 type Stack = ArrayVec<(f32, u32), STACK>;
 
-/// Three roundings to f32 stand between a corner and a time, and five between corners and the square of a distance,
-/// of at most 2^-24 each.
+/// Relative rounding error allowed for: three roundings to f32 between a corner and a time, five between corners and
+/// the square of a distance, of at most 2^-24 each.
 const LOST: f64 = 1.0 / 4_194_304.0;
 
-/// A question about an order: one rule for nodes and boxes, monotone under rounding, so that no box comes before the
-/// node around it.
+/// A query that puts boxes in an order. Nodes and boxes take the same test, monotone under rounding, so that no box
+/// comes before the node around it.
 pub(crate) trait Ask {
-    /// Where each of eight boxes comes in the order, and which of them are within a limit. Of others and of empty
-    /// places, anything.
+    /// Finds the place of each of eight boxes in the order, and which of them are within a limit. Places of others, and
+    /// of empty slots, are arbitrary.
     fn find(&self, sides: &Rows, slots: &[u32; WIDTH], limit: f32, found: &mut Found);
-    /// A limit, as places are told; below zero, if nothing is within it.
+    /// Converts a limit to the units of places; negative if nothing is within it.
     fn within(&self, limit: f64) -> f32;
 }
 
-/// What is told of the eight boxes of a node.
+/// The result of a test of the eight boxes of a node.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(32))]
 pub(crate) struct Found {
     places: [f32; WIDTH],
-    /// 1 for those within the limit: bytes of a number, so that a loop over lanes needs no sum across them.
+    /// 1 for those within the limit, in the bytes of one number, so that a loop over lanes needs no sum across them.
     within: [u8; WIDTH],
 }
 
 impl Tree {
-    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off; and where it
-    /// is known, its triangle.
+    /// Hands the number of every box that overlaps this one to `visitor`, each once, until it breaks off; with its
+    /// triangle, in a tree of triangles.
     #[inline]
     pub(crate) fn visit_overlapping(
         &self,
@@ -83,11 +83,11 @@ impl Tree {
         ControlFlow::Continue(())
     }
 
-    /// Hands boxes to `visitor` that are within a limit, of each node the first in the order before all others, and
-    /// where it is known, their triangle. What it returns is the limit from then on, unless it was lower before.
+    /// Hands boxes within a limit to `visitor`, the children of each node in order; with their triangles, in a tree of
+    /// triangles. `visitor` returns the limit from then on, which cannot be raised.
     ///
-    /// Longer than sixty lines: taking from the stack and adding to it share six variables, which a function between
-    /// them would hand to and fro.
+    /// Longer than sixty lines, as popping from the stack and pushing to it share six variables that a helper would
+    /// have to take and return.
     #[inline]
     pub(crate) fn visit_in_order(
         &self,
@@ -103,12 +103,12 @@ impl Tree {
         stack.push((0.0_f32, self.root));
         let mut found = Found::default();
         'next: while let Some((place, mut slot)) = stack.pop() {
-            // A limit below zero ends here.
+            // A negative limit ends here.
             if place > limit {
                 continue;
             }
             while slot & IS_BOX == 0 {
-                // Of a leaf, slots are triangles' places; of a node, what stands there.
+                // In a leaf, slots are the places of triangles; in a node, its own slots.
                 let (first, slots) = if slot & IS_LEAF == 0 {
                     let node = &self.nodes[slot as usize];
                     ask.find(&node.sides, &node.slots, limit, &mut found);
@@ -129,7 +129,7 @@ impl Tree {
                     let place = found.places[lane];
                     insert(&mut stack, bottom, (place, first | slots[lane]));
                 }
-                // The last of them: on with it at once, where it is the nearest.
+                // The last of them is visited at once if it is the nearest.
                 let lane = bits.trailing_zeros() as usize / 8 % WIDTH;
                 let place = found.places[lane];
                 slot = first | slots[lane];
@@ -152,8 +152,8 @@ impl Tree {
     }
 }
 
-/// Puts a box among those between two heights of a stack. The nearest goes on top; of equals, the one in the earlier
-/// place.
+/// Inserts a box into the part of a stack above `bottom`, with the nearest on top; among equals, the one of the earlier
+/// lane.
 #[inline(always)]
 fn insert(stack: &mut Stack, bottom: usize, one: (f32, u32)) {
     let mut at = stack.len();
@@ -169,7 +169,7 @@ fn insert(stack: &mut Stack, bottom: usize, one: (f32, u32)) {
 const LANES: [u32; WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 impl Node {
-    /// Which of the boxes a box overlaps: see [`note_overlaps`].
+    /// Which of the boxes overlap a box: see [`note_overlaps`].
     #[inline(never)]
     fn overlapping(&self, one: &Sides, within: &mut [u8; WIDTH]) {
         note_overlaps(&self.sides, one, within);
@@ -177,18 +177,18 @@ impl Node {
 }
 
 impl Leaf {
-    /// Which of the triangles have a box that a box overlaps: see [`note_overlaps`].
+    /// Which of the triangles have a box that overlaps a box: see [`note_overlaps`].
     #[inline(never)]
     fn overlapping(&self, one: &Sides, within: &mut [u8; WIDTH]) {
         note_overlaps(&self.sides(), one, within);
     }
 }
 
-/// Which of eight boxes a box overlaps: 1 for those, and 0 for others.
+/// Which of eight boxes overlap a box: 1 for those, and 0 for others.
 ///
-/// In calls of their own that write to memory, as [`Ask::find`] is: handed back as a number, or compiled into the walk,
-/// lanes were taken apart (110 instructions a node, and 50 as it is). What is near a box of 0.8 m is found in 0.73 of
-/// the time on 20,000 triangles, in 0.82 on a million (Intel Xeon, 2.5 GHz, 2026-11-28).
+/// Its callers are separate functions that write to memory, like [`Ask::find`]: returned as a number, or inlined into
+/// the walk, the lanes were scalarised (110 instructions per node, in place of 50). So the triangles near a box of 0.8
+/// m are found in 0.73 of the time among 20,000, in 0.82 among a million (Intel Xeon, 2.5 GHz, 2026-11-28).
 #[inline(always)]
 fn note_overlaps(sides: &Rows, one: &Sides, within: &mut [u8; WIDTH]) {
     // An empty place holds NaN, which compares with nothing.
@@ -205,24 +205,24 @@ fn note_overlaps(sides: &Rows, one: &Sides, within: &mut [u8; WIDTH]) {
     }
 }
 
-/// A box that moves on a line, or a ray. Places are times, in lengths of the direction after it was made about as long
-/// as 1.
+/// A box that moves along a line, or a ray. Places are times, in lengths of the direction after it was scaled to about
+/// 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
-    /// On which axes the greater side of a box is met first.
+    /// On which axes the upper side of a box is met first.
     is_backward: [bool; 3],
-    /// From where that is measured: four times the same, to go with four lanes.
+    /// The coordinates from which times are measured, each repeated for four lanes.
     from_near: [[f32; 4]; 3],
     from_far: [[f32; 4]; 3],
-    /// Times a metre, rounded down and up by more than all that follows can lose. Infinite where nothing moves.
+    /// Time per metre, rounded down and up by more than all later rounding can add up to. Infinite without motion.
     per_near: [[f32; 4]; 3],
     per_far: [[f32; 4]; 3],
-    /// Times in a length of the direction as it was given, a power of two.
+    /// Units of time per length of the given direction, a power of two.
     unit: f64,
 }
 
 impl Line {
-    /// Nothing where a number is not finite, or a half extent negative.
+    /// `None` if a number is not finite or a half extent negative.
     #[inline(always)]
     pub(crate) fn new(from: DVec3, direction: DVec3, grown: Vec3) -> Option<Self> {
         let grown = grown.as_dvec3();
@@ -231,7 +231,7 @@ impl Line {
             return None;
         }
         let longest = direction.abs().max_element();
-        // The power of two below the longest part, so that nothing overflows early.
+        // The power of two below the longest component, so that nothing overflows early.
         let power = f64::from_bits(longest.to_bits() & (0x7ff << 52)).max(f64::MIN_POSITIVE);
         let unit = if longest > 0.0 { power } else { 1.0 };
         let axis = |from: f64, direction: f64, grown: f64| {
@@ -263,10 +263,10 @@ impl Line {
 }
 
 impl Ask for Line {
-    /// A NaN comes from a side that is touched all the way, and bounds nothing: comparisons drop it.
+    /// A NaN comes from a side that is touched all the way. It is no bound, and comparisons drop it.
     ///
-    /// A call of its own, with all it finds in memory: compiled into the walk, lanes were taken apart (250 instructions
-    /// a node, and 95 as it is; AMD EPYC, Zen 4, 2026-11-22).
+    /// Not inlined, with its result in memory: inlined into the walk, the lanes were scalarised (250 instructions per
+    /// node, in place of 95; AMD EPYC, Zen 4, 2026-11-22).
     #[inline(never)]
     fn find(&self, sides: &Rows, slots: &[u32; WIDTH], limit: f32, found: &mut Found) {
         let (mut enter, mut leave) = ([0.0; WIDTH], [limit; WIDTH]);
@@ -293,12 +293,12 @@ impl Ask for Line {
     }
 }
 
-/// How near to a box others are. Places are squares of metres.
+/// The query for boxes near a box. Places are squared distances in metres.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Near(Sides);
 
 impl Near {
-    /// Nothing where the box is empty.
+    /// `None` if the box is empty.
     pub(crate) fn new(bounds: &Aabb3) -> Option<Self> {
         let ([a, b, c], [d, e, f]) = bounds.corners();
         bounds.is_valid().then_some(Self([a, b, c, d, e, f]))
@@ -319,8 +319,7 @@ impl Ask for Near {
             }
         }
         for square in &mut squares {
-            // Denormal squares have lost too much to say who is nearer; infinite ones are the limit of what can be
-            // told.
+            // Denormal squares are too inexact to compare, and become 0; overflow is clamped to the greatest number.
             *square = if *square >= f32::MIN_POSITIVE { *square } else { 0.0 };
             *square = if *square < f32::MAX { *square } else { f32::MAX };
         }
@@ -333,7 +332,7 @@ impl Ask for Near {
     #[inline(always)]
     fn within(&self, limit: f64) -> f32 {
         let limit = limit * (1.0 + 2.0 * LOST);
-        // The least square that counts is the square of 1e-19 m.
+        // Squares below that of 1e-19 m count as 0.
         if limit >= 0.0 { ((limit * limit) as f32).clamp(f32::MIN_POSITIVE, f32::MAX) } else { -1.0 }
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn cloud(count: usize, seed: u64, shape: impl Fn(Vec3) -> Vec3) -> Ve
     (0..count).map(|_| shape(random.vector())).collect()
 }
 
-/// A few points whose coordinates are 1, nothing, or something between that and next to nothing.
+/// A few points whose coordinates are 1, 0, or anything between 1 and almost 0.
 pub(super) fn thinner_than_rounding(seed: u64) -> Vec<Vec3> {
     let random = &mut Random::new(seed);
     let tiny = [[1e-9, 1e-18], [1e-12, 1e-24], [1e-18, 1e-36], [1e-21, 1e-44]][seed as usize % 4];
@@ -89,7 +89,7 @@ pub(super) fn nasty(seed: u64) -> Vec<Vec3> {
         // Subnormal steps on top of whole ones, and zeros of both signs.
         26 => (0..count).map(|_| lattice(random, 0) + lattice(random, 1) * 1e-45).collect(),
         27 => (0..count).map(|_| lattice(random, 2) * -0.0 + lattice(random, 0) * 1e-6).collect(),
-        // A cap so flat that its facets are all but one plane, over a body.
+        // A cap so flat that its facets are almost coplanar, on a body.
         28 => (0..count)
             .map(|i| if i < 8 { corner(i) - Vec3::Z } else { cap(random, 1e-3 * (1 + i % 3) as f32) })
             .collect(),
@@ -141,7 +141,7 @@ fn lattice(random: &mut Random, kind: u64) -> Vec3 {
                 Vec3::new(steps(v, 7.0).x, 0.0, -0.0)
             }
         }
-        // A slanted plane through lattice points, exactly, and the odd point off it.
+        // An exactly slanted plane through lattice points, and the odd point off it.
         6 => {
             let s = steps(v, 4.0);
             Vec3::new(s.x, s.y, s.x + s.y + if v.z > 0.7 { 0.25 } else { 0.0 })
@@ -167,7 +167,7 @@ fn thin(random: &mut Random, kind: u64) -> Vec3 {
     }
 }
 
-/// Points on circles, turned or not: rings, prisms, cones, double cones, cylinders with many corners.
+/// Points on circles, rotated or not: rings, prisms, cones, double cones, cylinders with many corners.
 fn ring(random: &mut Random, kind: u64, count: usize) -> Vec<Vec3> {
     let corners = 3 + random.below(20);
     let turn = if kind.is_multiple_of(2) { Quat::IDENTITY } else { random.turn() };

@@ -1,4 +1,4 @@
-//! Whether a hull holds a point: what its faces tell at once is what looking at every triangle tells.
+//! Tests of `Hull::contains`: the shortcut by faces agrees with a test of every triangle.
 
 use super::clouds::{Random, nasty};
 use crate::hull::Hull;
@@ -36,7 +36,7 @@ fn faces_tell_what_all_triangles_tell() {
     assert!(inside > 10_000 && outside > 10_000, "{inside} inside, {outside} outside");
 }
 
-/// Needles down to next to no thickness, turned, and along an axis, where an arm has no rounding.
+/// Needles down to almost no thickness, rotated, and along an axis, where an arm has no rounding.
 #[test]
 fn the_inner_ball_stays_inside_along_its_arm() {
     let mut arms = [0; 2];
@@ -64,7 +64,7 @@ fn the_inner_ball_stays_inside_along_its_arm() {
     assert!(arms[0] > 1500 && arms[1] > 1000, "{arms:?}");
 }
 
-/// By the facets that gift wrapping finds, and determinants: where faces are merged, too.
+/// Against determinants with the facets of gift wrapping, also where faces are merged.
 #[test]
 fn a_hull_holds_what_no_exact_facet_has_outside() {
     let (mut inside, mut between, mut merged) = (0, 0, 0);
@@ -97,7 +97,7 @@ fn a_hull_holds_what_no_exact_facet_has_outside() {
                 .any(|facet| outside(&with, [facet[0], facet[1], facet[2]], vertices.len() as u32) > 0.0);
             assert_eq!(hull.contains(p), !is_outside, "{p:?} of seed {seed}: {points:?}");
             inside += usize::from(!is_outside);
-            // What is in front of no face by all its corners.
+            // Points that are in front of no face, measured from all of its corners.
             let height = |normal: &DVec3, face: usize| {
                 let corners = hull.topology().face_vertices(face);
                 corners.map(|i| normal.dot((p - vertices[i]).as_dvec3())).fold(f64::INFINITY, f64::min)
@@ -113,7 +113,7 @@ fn a_hull_holds_what_no_exact_facet_has_outside() {
     );
 }
 
-/// Beside the surface by as little as f64 can say: by integers, and every plane through three vertices.
+/// Points off the surface by as little as f64 resolves, against integers and every plane through three vertices.
 #[test]
 fn a_hull_of_integers_holds_what_integers_say() {
     const STEPS: f64 = (1_u64 << 60) as f64;
@@ -127,7 +127,7 @@ fn a_hull_of_integers_holds_what_integers_say() {
         let planes = planes_around(&corners);
         for round in 0..120 {
             let mut corner = || hull.vertices()[random.below(corners.len())].as_dvec3();
-            // On a corner, an edge, a face or between; then off by the least that counts, or not.
+            // On a corner, an edge, a face or between; then moved by the least step, or not.
             let on = corner().lerp(corner(), [0.0, 0.25, 0.5][round % 3]);
             let on = on.lerp(corner(), [0.0, 0.0, 0.25, 0.5][round % 4]);
             let off = |c: f64, way: usize| {
@@ -149,7 +149,7 @@ fn a_hull_of_integers_holds_what_integers_say() {
     assert!(inside > 5000 && outside > 5000, "{inside} inside, {outside} outside");
 }
 
-/// Outward normals and a point of each plane through three corners that has none in front.
+/// Outward normals and a point of each plane through three corners without corners in front.
 fn planes_around(corners: &[[i128; 3]]) -> Vec<[[i128; 3]; 2]> {
     let less = |a: [i128; 3], b: [i128; 3]| [0, 1, 2].map(|i| a[i] - b[i]);
     let dot = |a: [i128; 3], b: [i128; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

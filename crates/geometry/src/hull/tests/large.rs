@@ -1,4 +1,4 @@
-//! The largest clouds: what they cost is counted, and not timed.
+//! Tests of the largest clouds, by counting steps instead of time.
 
 use super::clouds::Random;
 use crate::counted::steps_of;
@@ -39,14 +39,14 @@ fn large_clouds(random: &mut Random) -> Vec<(&'static str, Vec<Vec3>)> {
     ]
 }
 
-/// Of every second cloud from the given one on, that it takes no more steps than sorting would explain, and that the
-/// hull is one of its points.
+/// Checks for every second cloud from the given one on that it takes no more steps than sorting would explain, and that
+/// the hull is valid.
 fn check(first: usize) {
     for (name, points) in large_clouds(&mut Random::new(3003)).into_iter().skip(first).step_by(2) {
         let (built, steps) = steps_of(|| [Hull::of_any_dimension(&points), Hull::simplify(&points, 256)]);
-        // At most 18 n log n of both (a ring). A quadratic step alone is 4,096.
+        // Measured: at most 18 n log n for both (a ring). A single quadratic step would be 4,096.
         assert!(steps <= 32 * 16 * MAX_HULL_POINTS as u64, "{name}: {steps}");
-        // Where both are the same hull, once is enough.
+        // If both hulls are the same, one check is enough.
         let are_same = built[0].is_ok() && built[0] == built[1];
         for hull in built.into_iter().skip(usize::from(are_same)) {
             match hull {
@@ -59,7 +59,7 @@ fn check(first: usize) {
     }
 }
 
-// In halves, so that they are run side by side.
+// In two halves, which run in parallel.
 
 #[test]
 fn the_largest_clouds_take_no_more_steps_than_sorting_would_explain() {

@@ -1,11 +1,11 @@
-//! Hulls come back from what is stored of them, bit for bit.
+//! Tests that hulls are restored bit for bit from what is stored of them.
 
 use super::clouds::{KINDS, nasty, thinner_than_rounding};
 use crate::hull::Hull;
 use crate::hull::restore::StoredHullError;
 use glam::Vec3;
 
-/// Debug prints every number so that it reads back as the same bits, and every field.
+/// Compares `Debug` output as well, which prints numbers so that they read back as the same bits.
 fn assert_comes_back(hull: &Hull, what: &str) {
     let restored = Hull::restored(hull.vertices(), hull.loops(), hull.error());
     let restored = restored.unwrap_or_else(|error| panic!("{error}: {what}: {:?}", hull.vertices()));
@@ -60,7 +60,7 @@ fn what_is_thinner_than_rounding_comes_back() {
     }
 }
 
-/// Merging grew faces over a plate 3e-14 thick that left each other's planes by more than stored ones may.
+/// Symptom: on a plate 3e-14 thick, merged faces were further from flat than stored ones may be.
 #[test]
 fn faces_that_grow_out_of_their_plane_are_facets() {
     let points = [
@@ -79,7 +79,8 @@ fn faces_that_grow_out_of_their_plane_are_facets() {
     assert_comes_back(&hull, "a plate");
 }
 
-/// The share of a stored hull's size by which hulls that were built here are not flat: what the bound is derived from.
+/// Measures the planarity error of hulls built here relative to their size, from which the bound for stored ones is
+/// derived.
 #[test]
 fn no_hull_comes_near_the_bound_on_what_merging_leaves() {
     let mut most = 0.0_f64;
