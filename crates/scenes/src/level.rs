@@ -147,9 +147,9 @@ pub struct LevelLayers {
 impl Level {
     /// Reads a scene file. The format is described at the head of [this module](self).
     ///
+    /// # Errors
     /// Text that is not JSON, or a field that is unknown, missing or of the wrong type, with its line and column; or
     /// content that makes no sense, with its path in the file. Only the first fault is reported.
-    /// content that makes no sense, with its path in the file. The first fault is the one reported.
     pub fn from_json(json: impl AsRef<[u8]>) -> Result<Self, LevelError> {
         let file: raw::File = serde_json::from_slice(json.as_ref()).map_err(LevelError::Json)?;
         match file.dimension {

@@ -1,10 +1,10 @@
 //! Vertices, edges and faces brought into contact.
 //!
 //! ```text
-//! pick a feature of A and one of B, each with a direction that it supports
-//! turn A at random, turn B until its direction opposes A's, then spin B about that direction
-//! round both rotations to f32; take the axis from the rounded bodies (normal of a face, cross product of two edges)
-//! put point on point, then move B along the axis until the separation along it is the wanted gap
+//! feature of A, with a direction that it supports       feature of B, with one of its own
+//!    turn A at random, turn B until its direction opposes A's, then spin B about that direction
+//!    round both rotations to f32; take the axis from the rounded bodies (normal of a face, cross product of edges)
+//!    put point on point, then move B along the axis until the separation along it is the wanted gap
 //! ```
 //! Both features support the axis up to the rounding of rotations, so the gap is also the distance, up to as much.
 
