@@ -1,7 +1,7 @@
-//! Only the broad phase: which of many boxes overlap, frame after frame, and what a box or a ray meets.
+//! Only the broad phase: which of many boxes overlap, frame after frame, and what a box or a ray overlaps.
 //!
-//! A game that has its own shapes, or needs no more than boxes (triggers, interest of players in a large world,
-//! culling), can use `asunder-broad` alone: boxes in, sorted pairs out; the numbers are the caller's.
+//! A game that has its own shapes, or needs no more than boxes (triggers, areas of interest in a large world, culling),
+//! can use `asunder-broad` alone: boxes go in, sorted pairs of their indices come out.
 
 use asunder_broad::{Cast, CoherentSweep, Index, Sweep};
 use asunder_geometry::{Aabb3, Ray3, glam::Vec3};
@@ -13,8 +13,8 @@ const COUNT: usize = 20_000;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut pairs = Vec::new();
 
-    // Everything moves: a sweep from scratch each frame. The filter is asked about overlapping boxes only; here odd
-    // boxes do not care for odd ones.
+    // Everything moves: a sweep from scratch each frame. The filter is called for overlapping boxes only; here it drops
+    // pairs of two odd-numbered boxes.
     let mut gas = MovingBoxes::new(BoxScene::Gas, COUNT, 1);
     let mut sweep = Sweep::new();
     let mut timed = Vec::new();
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     println!("{COUNT} boxes, all moving: {} pairs, {:?} a frame", pairs.len(), median(&mut timed));
 
-    // Few move, and we know which: what rests costs nothing.
+    // Few boxes move, and we know which: resting boxes cost nothing.
     let mut still = MovingBoxes::new(BoxScene::Static1, COUNT, 1);
     let mut coherent = CoherentSweep::new();
     let mut timed = Vec::new();
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let moved = still.moved().len();
     println!("{COUNT} boxes, {moved} moving: {} pairs, {:?} a frame", pairs.len(), median(&mut timed));
 
-    // Questions about boxes that rest.
+    // Queries on boxes that rest.
     let mut index = Index::new();
     index.build(&still.boxes);
     let mut met = Vec::new();

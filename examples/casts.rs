@@ -11,7 +11,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     world.insert(Collider3::new(HalfSpace::new(Vec3::Y)?).fixed());
     let wall = Cuboid::from_half_extents(Vec3::new(0.2, 1.0, 3.0))?;
     world.insert(Collider3::new(wall).at(Pose3::at([10.0, 1.0, 0.0])?).fixed().user_data(100));
-    // The eye is inside its owner's own body, which must not stop the ray: one owner for both parts of it.
+    // The eye is inside the shooter's own body, which must not stop the ray: both bodies get the same owner, and the
+    // filter leaves that owner out.
     let eye = DVec3::new(0.0, 1.7, 0.0);
     let body = Capsule3::from_half_height(0.6, 0.3)?;
     world.insert(Collider3::new(body).at(Pose3::at([0.0, 0.9, 0.0])?).owner(SHOOTER));
@@ -19,24 +20,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let target = world.insert(Collider3::new(body).user_data(101));
     let others = Filter3::new().without_owner(SHOOTER).solid();
 
-    // The target runs across behind the wall. Questions see it where it is, without an update.
+    // The target runs behind the wall. Queries use the poses set last: no update is needed in between.
     for z in [0.0, 3.0, 6.15, 9.0] {
         let place = DVec3::new(20.0, 0.9, z);
         world.set_pose(target, Pose3::at(place)?)?;
 
-        // Is it seen? Whatever stands between is enough to know that it is not, so the first of all breaks off.
+        // Is it seen? Any body in between is enough to know that it is not, so the visit breaks off at the first.
         let line = Ray3::between(eye, place)?;
         let between = others.without(target);
         let sees = world.visit_ray(&line, 1.0, &between, |_| ControlFlow::Break(())).is_continue();
         println!("target at z = {z}: {}", if sees { "in sight" } else { "hidden" });
 
-        // Where does the shot end? What is told is in lengths of the direction: here, half a metre each.
+        // Where does the shot end? Distances are in lengths of the ray's direction: here, half a metre each.
         let shot = Ray3::new(eye, (place - eye).as_vec3().normalize() * 0.5)?;
         if let Some(hit) = world.cast_ray(&shot, 200.0, &others) {
             let what = world.get(hit.body).map_or(0, Collider3::get_user_data);
             println!("  the shot hits {what} after {:.3} m, at {:.3}", hit.distance * 0.5, hit.point);
         }
-        // A thick shot, a ball of 10 cm, also hits what a ray just passes by.
+        // A thick shot, cast as a ball of 10 cm radius, also hits what a thin ray just misses.
         let ball = Sphere::new(0.1)?.into();
         let to = shot.direction() * 200.0;
         if let Some(hit) = world.cast_shape((&ball, &Pose3::at(eye)?), to, &others) {

@@ -1,7 +1,7 @@
 //! Doors that open by themselves: sensors, events, layers and user data.
 //!
-//! A sensor is touched and pushes nobody. What it touches comes as events, each beginning and end once, also when a
-//! body is taken out of the world in the doorway.
+//! A sensor has contacts and events but pushes nothing. Each overlap that begins or ends gives one event, also when a
+//! body is removed from the world while it stands in the doorway.
 
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Capsule3, Collider3, Cuboid, Event3, Layers, Pose3, Sphere, World3};
@@ -10,7 +10,7 @@ const PEOPLE: u32 = 1 << 0;
 const THINGS: u32 = 1 << 1;
 const SENSORS: u32 = 1 << 2;
 
-/// A door, and who stands before it.
+/// A door, and how many people stand at it.
 struct Door {
     name: &'static str,
     inside: u32,
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World3::new();
     let mut doors = [Door { name: "west", inside: 0 }, Door { name: "east", inside: 0 }];
 
-    // The user data of a sensor says which door it is of. It sees people, and not what they carry.
+    // The user data of a sensor is its door's number. Its layers let it see people, but not what they carry.
     for (number, x) in [-5.0, 5.0].into_iter().enumerate() {
         let area = Collider3::new(Cuboid::from_half_extents(Vec3::new(1.5, 1.5, 1.5))?).sensor().fixed();
         let area = area.layers(Layers { member_of: SENSORS, collides_with: PEOPLE });
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         world.set_pose(walker, Pose3::at(place)?)?;
         world.set_pose(parcel, Pose3::at(place + DVec3::X * 0.4)?)?;
         if step == 14 {
-            // Gone for good; the door is told.
+            // Removed while it touches the sensor: the door still gets its end event.
             world.remove(waiter);
         }
         world.update();
@@ -52,9 +52,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A door opens for the first who comes, and closes behind the last.
+/// Opens a door when the first person comes, and closes it behind the last.
 fn hear(doors: &mut [Door], event: &Event3) {
-    // Either body may be the sensor.
+    // The sensor may be either body of the event.
     let (first, second) = event.user_data();
     let (number, who) = if first < doors.len() as u64 { (first, second) } else { (second, first) };
     let Some(door) = doors.get_mut(number as usize) else { return };

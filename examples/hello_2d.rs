@@ -4,10 +4,10 @@ use asunder::{Chain, Circle, Collider2, Pose2, World2, glam::Vec2};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut world = World2::new();
-    // Ground is a chain of segments; drawn from right to left it looks up, and one-sided it is open from below.
+    // The ground is a chain of segments. Drawn from right to left it faces up; one-sided, it is open from below.
     let slope = Chain::open([Vec2::new(4.0, 0.0), Vec2::new(2.0, 0.2), Vec2::new(0.0, 1.0)])?.one_sided();
     let slope = world.insert(Collider2::new(slope));
-    // A margin of 5 cm: contacts begin to be told before the ball touches.
+    // A margin of 5 cm: the contact is reported from 5 cm before the ball touches, with a positive separation.
     let ball = world.insert(Collider2::new(Circle::new(0.25)?).margin(0.05)?);
 
     for step in 0..=10 {

@@ -1,9 +1,9 @@
-//! A jump onto a ledge that is solid from above only: a character of the plane.
+//! A platformer character in 2D jumps onto a ledge that is solid only from above.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{Capsule2, Collider2, Filter2, Pose2, Rect, Shape2, Walk2, World2};
 
-/// What a ledge's `user_data` says: it can be jumped through from below.
+/// Marks a ledge in its `user_data`: it can be jumped through from below.
 const ONE_WAY: u64 = 1;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut pose = Pose2::at([1.0, 0.61])?;
     let (mut fall, mut trace) = (0.0, Vec::new());
     for frame in 0..60 {
-        // A ledge counts only for feet that are above it, on their way down.
+        // A ledge is solid only while the feet are above it and not rising.
         let feet = pose.position().y - 0.6;
         let is_solid = |_, body: &Collider2| {
             let top = body.pose().position().y + 0.25;
@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A line of text for every half metre of height: solids, ledges, and where the feet were.
+/// Prints one line of text for every half metre of height: solids, ledges, and where the feet were.
 fn draw(world: &World2, trace: &[DVec2]) {
     for row in (-1..10).rev() {
         let line = (0..60).map(|column| {

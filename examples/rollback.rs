@@ -1,15 +1,15 @@
-//! Two machines play one game: inputs arrive late, the past is played again, and both end in the same bits.
+//! Rollback networking: two machines play one game, inputs arrive late, and both end in the same bits.
 //!
-//! Each machine guesses that the other's player goes on as before. When the true input comes in, five to eight
-//! frames late, and is another one, the machine takes its copy of the world from before that frame and plays on
-//! from there.
+//! Each machine guesses that the other's player goes on as before. The true input arrives five to eight frames late. If
+//! it differs from the guess, the machine restores its copy of the world from before that frame and plays on from there
+//! with the true input.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{BodyKey2, Circle, Collider2, Pose2, Rect, World2};
 
 const FRAMES: usize = 60;
 
-/// A frame of the game: all that the next one is made of.
+/// The state of the game: all that the next frame depends on.
 #[derive(Clone)]
 struct Game {
     world: World2,
@@ -18,7 +18,7 @@ struct Game {
     bumps: u64,
 }
 
-/// Where a player wants to go, in metres a frame.
+/// How far a player wants to move, in metres a frame.
 type Input = DVec2;
 
 impl Game {
@@ -35,7 +35,7 @@ impl Game {
         Ok(Self { world, players: [left, right], bumps: 0 })
     }
 
-    /// Moves the players, and pushes whatever they touch out of their way.
+    /// Moves the players, updates the world, and pushes overlapping bodies apart.
     fn step(&mut self, inputs: [Input; 2]) -> Result<(), Box<dyn std::error::Error>> {
         for (key, input) in self.players.into_iter().zip(inputs) {
             shift(&mut self.world, key, input)?;
@@ -67,11 +67,11 @@ fn shift(world: &mut World2, key: BodyKey2, by: DVec2) -> Result<(), Box<dyn std
 /// One of the two computers.
 struct Machine {
     player: usize,
-    /// The game before each frame: `past[f]` is what frame f was made of. A clone a frame is cheap, and has an
-    /// equal future.
+    /// The game before each frame: `past[f]` is the state that frame f was played from. A clone each frame is cheap,
+    /// and has the same future as the original.
     past: Vec<Game>,
     now: Game,
-    /// What the other player did, as far as it is known.
+    /// The other player's inputs that have arrived so far, by frame.
     known: Vec<Input>,
     rollbacks: usize,
 }
@@ -81,7 +81,7 @@ impl Machine {
         Ok(Self { player, past: Vec::new(), now: Game::new()?, known: Vec::new(), rollbacks: 0 })
     }
 
-    /// The other's input: the true one, or a guess, which is the last one known.
+    /// The other player's input: the true one if it has arrived, else the last known one as a guess.
     fn other(&self, frame: usize) -> Input {
         self.known.get(frame).or(self.known.last()).copied().unwrap_or(Input::ZERO)
     }
@@ -94,8 +94,8 @@ impl Machine {
         self.now.step(inputs)
     }
 
-    /// The other's input of the next unknown frame comes in. If the guess was wrong, back to there, and on again to
-    /// now.
+    /// The other player's input for the next unknown frame arrives. If the guess was wrong, goes back to that frame and
+    /// replays up to now.
     fn receive(&mut self, input: Input) -> Result<(), Box<dyn std::error::Error>> {
         let (frame, now) = (self.known.len(), self.past.len());
         let guess = self.other(frame);
@@ -111,7 +111,7 @@ impl Machine {
     }
 }
 
-/// What a player does: changes its mind every few frames.
+/// The input of a player, who changes direction every few frames.
 fn input_of(player: usize, frame: usize) -> Input {
     let ways = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::new(0.6, 0.8), DVec2::NEG_Y];
     let way = ways[(frame / 7 + 2 * player) % ways.len()] * 0.2;
@@ -140,7 +140,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(checksums[0], checksums[1], "both played the same game");
     assert_eq!(one.now.bumps, other.now.bumps);
 
-    // A third joins: the whole world goes over the wire, and its future is that of the others.
+    // A third machine joins: the whole world is sent to it as a snapshot, and plays on just as it does for the others.
     let wire = serde_json::to_string(&one.now.world.snapshot())?;
     let world = World2::restore(&serde_json::from_str(&wire)?)?;
     let mut joined = Game { world, ..one.now.clone() };

@@ -1,4 +1,4 @@
-//! Criterion's view of the broad phase: the main rows of `compare -- broad`, our side alone.
+//! Criterion benches of the broad phase: the main rows of `compare -- broad`, our side alone.
 
 mod brief;
 
@@ -10,7 +10,7 @@ use core::time::Duration;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use std::time::Instant;
 
-/// From scratch each frame, the boxes moved on between the frames.
+/// From scratch each frame; the boxes move on between the frames.
 fn scratch(criterion: &mut Criterion) {
     let small = [BoxScene::Gas, BoxScene::City].map(|scene| (scene, 1000));
     let scenes = [BoxScene::Gas, BoxScene::City, BoxScene::Pile, BoxScene::Sizes, BoxScene::Tower];
@@ -30,7 +30,7 @@ fn scratch(criterion: &mut Criterion) {
     }
 }
 
-/// Few move, and what rests is kept. The scene moves on while the clock stands.
+/// Few boxes move, and pairs of resting boxes are kept. Moving the scene is not timed.
 fn coherent(criterion: &mut Criterion) {
     for (scene, count) in
         [(BoxScene::Static1, 10_000), (BoxScene::Static5, 10_000), (BoxScene::Still, 100_000)]
@@ -54,7 +54,7 @@ fn coherent(criterion: &mut Criterion) {
     }
 }
 
-/// What overlaps a box of the scene's own size, among boxes that rest.
+/// The boxes that overlap a box of the scene's own size, among boxes that rest.
 fn asked(criterion: &mut Criterion) {
     let boxes = MovingBoxes::new(BoxScene::Gas, 100_000, 1).boxes;
     let mut index = Index::new();

@@ -1,4 +1,4 @@
-//! Criterion's view of casts and rays in space, with parry3d's beside them.
+//! Criterion benches of casts and rays in space, beside parry3d's.
 
 use asunder_geometry::glam::{Quat, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Motion3, Pose3, Ray3, Shape3, Sphere};
@@ -10,10 +10,10 @@ use parry3d::query::{Ray, ShapeCastOptions, cast_shapes};
 use parry3d::shape::{Ball, Capsule, ConvexPolyhedron, Cuboid as Box3, SharedShape};
 use std::sync::Arc;
 
-/// How many different rays or motions go round.
+/// How many different rays or motions are cast in turns.
 const ROUND: usize = 64;
 
-/// Points on a sphere, evenly: a spiral without trigonometry, by turning a little at a time.
+/// Points spread evenly on a sphere: a spiral by repeated small rotations, without trigonometry.
 fn spiral(count: usize) -> Vec<Vec3> {
     let step = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.3)).ok();
     let turn = step.map(|motion| motion.turn(&Pose3::IDENTITY).basis_at(1.0));
@@ -47,7 +47,7 @@ fn shapes() -> Vec<(&'static str, Shape3, SharedShape)> {
     shapes
 }
 
-/// Starts around a shape and directions to it; every fourth goes past.
+/// Starts around a shape and directions towards it; every fourth misses it.
 fn lines() -> Vec<(Vec3, Vec3)> {
     let aims = spiral(ROUND + 1);
     (spiral(ROUND).into_iter().zip(aims).enumerate())

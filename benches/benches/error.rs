@@ -1,5 +1,5 @@
-//! Criterion's view of the report's first section: the separation of pairs, near and far, by our certain and our fast
-//! way. Eight boxes at a time stand in `vertices`.
+//! Criterion benches of the report's first section: the separation of pairs, near and far, by our certain and our fast
+//! queries. Eight boxes at a time are in `vertices`.
 
 mod brief;
 
@@ -8,7 +8,7 @@ use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, pairs3};
 use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 
-/// Pairs in a set: one iteration asks them all.
+/// Pairs in a set: one iteration queries them all.
 const PAIRS: usize = 200;
 
 fn posed(p: &PosedPair3) -> Pair3<'_> {

@@ -1,4 +1,4 @@
-//! Criterion's view of whole frames, and of pairs that are asked about from frame to frame.
+//! Criterion benches of whole frames, and of pairs that are queried from frame to frame.
 
 mod brief;
 
@@ -14,10 +14,10 @@ use core::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::time::Instant;
 
-/// Pairs in a set: one iteration asks them all.
+/// Pairs in a set: one iteration queries them all.
 const PAIRS: usize = 200;
 
-/// One frame of a scene, small enough for a look: from setting poses on. The scene moves on while the clock stands.
+/// One frame of a scene small enough for a quick look, from setting poses on. Moving the scene is not timed.
 fn frames(criterion: &mut Criterion) {
     let scenes = [
         (WorldScene::Mixed, 2000),
@@ -32,7 +32,7 @@ fn frames(criterion: &mut Criterion) {
     frame(criterion, heap.name(), recorded(heap, 1005, 1).expect("boxes have mass"));
 }
 
-/// A block of boxes at rest, face to face, beside which one moves: what a frame costs in which next to nothing happens.
+/// A block of boxes at rest, face to face, beside which one moves: the cost of a frame in which almost nothing happens.
 fn asleep(criterion: &mut Criterion) {
     const SIDE: usize = 20;
     let mut world = World3::new();
@@ -43,7 +43,7 @@ fn asleep(criterion: &mut Criterion) {
         world.insert(unit.clone().at(pose(DVec3::from(at))));
     }
     let mover = world.insert(unit);
-    // In the first update all is new, and in the second all is noted.
+    // In the first update everything is new; in the second everything is recorded.
     (0..3).for_each(|_| world.update());
     let mut frames = 0_u32;
     criterion.bench_function(&format!("frame/asleep, {} bodies", world.len()), |bencher| {
@@ -86,7 +86,7 @@ fn frame(criterion: &mut Criterion, name: &str, mut replay: Replay3) {
     });
 }
 
-/// Pairs that are asked about frame after frame.
+/// Pairs that are queried frame after frame.
 fn hints(criterion: &mut Criterion) {
     for kind in [SolidKind::Box, SolidKind::Hull32] {
         cached(criterion, kind);
@@ -99,7 +99,7 @@ fn job(pair: &PosedPair3, hint: Hint) -> Job3<'_> {
     Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }
 }
 
-/// Faces on faces, with the hints of the frame before.
+/// Faces on faces, with the hints of the previous frame.
 fn cached(criterion: &mut Criterion, kind: SolidKind) {
     let pairs = pairs3(kind, PairSet::Rest, PAIRS, 1);
     let mut batch = Batch3::default();
@@ -122,7 +122,7 @@ fn hint_of(answer: &Answer) -> Hint {
     *hint
 }
 
-/// Bodies that slide or tumble through all frames, each frame with the hints of the one before.
+/// Bodies that slide or tumble through all frames, each frame with the hints of the previous one.
 fn followed(criterion: &mut Criterion, kind: SolidKind) {
     for set in [PairSet::Slide, PairSet::Tumble] {
         let frames = frames3(kind, set, PAIRS, 1);

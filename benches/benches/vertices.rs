@@ -1,5 +1,5 @@
-//! Criterion's view of the report's last section: each question, of pairs of few and of many vertices, in space and in
-//! the plane.
+//! Criterion benches of the report's last section: each query, for pairs with few and with many vertices, in space and
+//! in the plane.
 
 mod brief;
 
@@ -8,14 +8,14 @@ use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKin
 use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 
-/// Pairs in a set: one iteration asks them all.
+/// Pairs in a set: one iteration queries them all.
 const PAIRS: usize = 200;
 
 fn posed(p: &PosedPair3) -> Pair3<'_> {
     Pair3::new(&p.shape_a, &p.pose_a, &p.shape_b, &p.pose_b)
 }
 
-/// One question about every pair of a set. The name is that of the row of `compare`; times are for the whole set.
+/// One query for every pair of a set. The name is that of the row of `compare`; times are for the whole set.
 fn solids(
     criterion: &mut Criterion,
     (kind, set): (SolidKind, PairSet),

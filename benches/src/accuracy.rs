@@ -1,23 +1,23 @@
-//! How right an answer is: the largest error, pairs that are off, contacts that are missed, on both sides.
+//! How accurate answers are: the largest error, answers that are off, and contacts that are missed, on both sides.
 
 use serde::Serialize;
 
-/// Share of a pair's size beyond which an answer is off, and deeper than which no contact may be missed.
+/// The share of a pair's size above which an error counts as off, and beyond which no deeper contact may be missed.
 pub const OFF: f64 = 1e-5;
 
-/// What one side says of a pair.
+/// One side's answer about a pair.
 ///
-/// A yes without a number says that the separation is not above zero, and a no that it is not below: what
-/// contradicts it is the error. A yes or no that is right has none.
+/// A yes without a number claims that the separation is not above zero, and a no that it is not below: the error is how
+/// far the truth contradicts that. A correct yes or no has no error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Said {
-    /// Whether it says that they touch: with a yes, a depth, or a contact point.
+    /// Whether it says that they touch: by a yes, a depth, or a contact point.
     pub touching: bool,
     /// The separation in metres, where it gives one.
     pub separation: Option<f64>,
 }
 
-/// What was found on the pairs of a row that were judged.
+/// The result for the pairs of a row that were judged.
 ///
 /// ```
 /// use asunder_benches::accuracy::{Accuracy, Said};
@@ -31,24 +31,24 @@ pub struct Said {
 pub struct Accuracy {
     /// How many pairs were judged.
     pub judged: usize,
-    /// Our largest error, as a share of the pair's size; what is no number is left out.
+    /// Our largest error, as a share of the pair's size; NaN is left out.
     pub max_error: f64,
-    /// Our answers off by more than [`OFF`] of size, or no number.
+    /// How many of our answers are off by more than [`OFF`] of size, or NaN.
     pub off: usize,
-    /// Pairs that overlap by more than [`OFF`] of size, and we find no contact.
+    /// How many pairs overlap by more than [`OFF`] of size without a contact from us.
     pub missed: usize,
-    /// The peer's largest error; nothing where no peer was asked.
+    /// The peer's largest error; `None` where no peer was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peer_max_error: Option<f64>,
-    /// The peer's answers that are off.
+    /// How many of the peer's answers are off.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peer_off: Option<usize>,
-    /// The contacts that the peer misses.
+    /// How many contacts the peer misses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peer_missed: Option<usize>,
 }
 
-/// One answer held against the truth: the error as a share of size, whether it is off, whether it misses a contact.
+/// One answer compared with the truth: the error as a share of size, whether it is off, whether it misses a contact.
 fn held(truth: f64, size: f64, said: Said) -> (f64, bool, bool) {
     let error = match (said.separation, said.touching) {
         (Some(separation), _) => (separation - truth).abs(),
@@ -59,17 +59,17 @@ fn held(truth: f64, size: f64, said: Said) -> (f64, bool, bool) {
 }
 
 impl Accuracy {
-    /// Adds what both sides say of a pair, whose separation and size are given in metres.
+    /// Adds both sides' answers about a pair, whose separation and size are given in metres.
     pub fn judge(&mut self, truth: f64, size: f64, ours: Said, peer: Said) {
         self.judge_ours(truth, size, ours);
         let (error, is_off, is_missed) = held(truth, size, peer);
-        // `f64::max` passes over a NaN.
+        // `f64::max` ignores a NaN.
         self.peer_max_error = Some(self.peer_max_error.unwrap_or(0.0).max(error));
         self.peer_off = Some(self.peer_off.unwrap_or(0) + usize::from(is_off));
         self.peer_missed = Some(self.peer_missed.unwrap_or(0) + usize::from(is_missed));
     }
 
-    /// Adds what we say of a pair that has no peer.
+    /// Adds our answer about a pair that has no peer.
     pub fn judge_ours(&mut self, truth: f64, size: f64, ours: Said) {
         let (error, is_off, is_missed) = held(truth, size, ours);
         self.judged += 1;
@@ -78,7 +78,7 @@ impl Accuracy {
         self.missed += usize::from(is_missed);
     }
 
-    /// Its columns of a table, under [`Accuracy::heading`].
+    /// The columns of a table, under [`Accuracy::heading`].
     pub fn to_text(&self) -> String {
         let count = |count: Option<usize>| count.map_or("-".to_string(), |count| count.to_string());
         let peer = self.peer_max_error.map_or("-".to_string(), |error| format!("{error:.1e}"));
@@ -93,7 +93,7 @@ impl Accuracy {
         )
     }
 
-    /// The heads of those columns.
+    /// The headings of those columns.
     ///
     /// ```
     /// use asunder_benches::accuracy::Accuracy;

@@ -1,21 +1,21 @@
-//! Frames in blocks, for threads that take turns.
+//! Frames in blocks, for variants that take turns.
 //!
-//! Who plays one frame and then waits for the others begins every frame with the caches full of what they left there,
-//! as no game does, and two threads lose more of their gain by it than one does: of heaps and pyramids they were 1.00
-//! to 1.04 times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores,
+//! A variant that plays one frame and then waits for the others begins every frame with the caches full of their data,
+//! as no game does, and two threads lose more of their gain by this than one does: for heaps and pyramids they were
+//! 1.00 to 1.04 times as fast frame by frame, and 1.08 to 1.26 block by block (AMD EPYC, Zen 4, 2 virtual cores,
 //! 2026-11-22). So each side plays some frames in a row, and the first of them are not counted.
 //!
-//! Threads that slept while others took their turn are woken on one processor, and moved apart by the system after some
-//! tens of milliseconds: of two threads the first 2 to 11 frames of a block took as long as one thread's (AMD EPYC, Zen
-//! 5, 2 virtual cores, Linux 6.18, 2026-11-25); the figures above hold that, too. Where one frame follows the other at
-//! once it does not happen, so threads are [`spread`] before each block. What a game can do about it stands in the
+//! Threads that slept while others took their turn are woken on one processor, and the system moves them apart after
+//! some tens of milliseconds: with two threads the first 2 to 11 frames of a block took as long as with one (AMD EPYC,
+//! Zen 5, 2 virtual cores, Linux 6.18, 2026-11-25); this is also in the figures above. It does not happen where frames
+//! follow each other at once, so threads are [`spread`] before each block. What a game can do about it is in the
 //! guide's page on game loops.
 
 use core::ops::Range;
 use rayon::ThreadPool;
 use std::time::{Duration, Instant};
 
-/// How long all threads of a pool are kept busy until each has a processor of its own: some ticks of the system's
+/// For how long all threads of a pool are kept busy, until each has a processor of its own: some ticks of the system's
 /// clock.
 const SPREAD: Duration = Duration::from_millis(60);
 
@@ -38,30 +38,30 @@ pub fn spread(pool: &ThreadPool) {
     });
 }
 
-/// Frames at the start of a block that are not counted. At the very start, buffers grow in them, and a million bodies
-/// at rest are sorted in once.
+/// Frames at the start of a block that are not counted. In the very first ones buffers grow, and a million bodies at
+/// rest are inserted once.
 const WARM: usize = 2;
 
-/// Most frames of a block that are counted.
+/// The most frames of a block that are counted.
 const LENGTH: usize = 10;
 
-/// Frames that one side after the other plays.
+/// Frames that each side plays in turn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
-    /// Blocks before it.
+    /// The number of blocks before it.
     pub number: usize,
-    /// All its frames, the uncounted ones first.
+    /// All its frames, beginning with those that are not counted.
     pub frames: Range<usize>,
 }
 
 impl Block {
-    /// Whether one of its frames is counted.
+    /// Whether a frame of the block is counted.
     pub fn counts(&self, frame: usize) -> bool {
         frame >= self.frames.start + WARM
     }
 }
 
-/// Blocks of about equal length with so many counted frames in all, at least; frames are numbered from 1 on.
+/// Blocks of about equal length, with at least `counted` counted frames in all; frames are numbered from 1.
 ///
 /// ```
 /// let blocks: Vec<_> = asunder_benches::blocks::blocks(12).collect();

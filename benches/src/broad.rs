@@ -1,11 +1,12 @@
 //! Broad phase: all overlapping pairs of a frame.
 //!
-//! Ours is the sorted list, filtered by layers, of the better of our modes; the parts of the one that starts from
-//! scratch, sweep and order, are reported apart. parry3d's is the unsorted list of the best of its ways to bring a tree
-//! up to date (`peer.rs` lists them). Every frame all of them must find equally many pairs, and ours equal lists.
+//! Our time is that of the sorted list, filtered by layers, in the better of our modes; the two stages of the mode that
+//! starts from scratch, sweep and sort, are also reported. parry3d's time is that of its unsorted list, by the best of
+//! its ways to update a tree (`peer.rs` lists them). In every frame all must find the same number of pairs, and ours
+//! must be equal lists.
 //!
-//! [`rows`] hands the same out as data, [`threads`] holds several threads against one, [`queries`] asks a structure of
-//! resting boxes, [`growth`] watches the cost of boxes that are laid out to hurt.
+//! [`rows`] returns the same as data, [`threads`] compares several threads with one, [`queries`] queries a structure of
+//! resting boxes, [`growth`] measures the cost of boxes laid out to make a broad phase slow.
 
 pub mod figures;
 pub mod growth;
@@ -26,10 +27,10 @@ use ours::Ours;
 use parry3d::bounding_volume::Aabb;
 use peer::Peer;
 
-/// One row: a scene, and its boxes.
+/// One row: a scene, and its number of boxes.
 pub type Case = (BoxScene, usize);
 
-/// Sizes of every scene; the last is left out of a quick look, and a million is added where it is asked for.
+/// Sizes of every scene; the last is left out of quick runs, and a million is added on request.
 const SIZES: [usize; 3] = [1000, 10_000, 100_000];
 
 /// The cases: every scene at every size, the small sizes first.
@@ -67,7 +68,7 @@ pub fn name(&(scene, count): &Case) -> String {
     format!("{}/{}", scene.name(), size_name(count))
 }
 
-/// A count in at most a few letters, as `10k`.
+/// A count in a few letters, as `10k`.
 fn size_name(count: usize) -> String {
     match count {
         1_000_000.. => format!("{}M", count / 1_000_000),
@@ -76,9 +77,9 @@ fn size_name(count: usize) -> String {
     }
 }
 
-/// Measures one case on one thread. Cost: about a second a variant, and there are up to ten.
+/// Measures one case on one thread. Cost: about a second per variant, of which there are up to ten.
 ///
-/// Must run where the library finds no second thread, as in a pool of one: thread time would miss it.
+/// Must run where the library finds no second thread, as in a pool of one: thread time would miss the other.
 ///
 /// ```
 /// use asunder_benches::{broad, clock::Effort};
@@ -92,7 +93,7 @@ pub fn measure(case: &Case, effort: &Effort) -> Row {
     row
 }
 
-/// Every variant's samples, and a row that says no more than where they differ.
+/// The samples of every variant, and a row that only notes where they differ.
 fn run(case: &Case, effort: &Effort) -> (Row, Ours, Vec<Peer>) {
     let &(_, count) = case;
     let mut row = Row::new(name(case), "frame", count);
@@ -114,7 +115,7 @@ fn run(case: &Case, effort: &Effort) -> (Row, Ours, Vec<Peer>) {
         }
         ours.frame(&stage.now(), found, limit, &mut row);
         if number == 0 {
-            // Buffers have grown: no frame after it allocates.
+            // Buffers have grown: no later frame allocates.
             ours.forget_samples(limit);
             peers.iter_mut().for_each(|peer| forget(&mut peer.samples, limit));
         }
@@ -125,24 +126,24 @@ fn run(case: &Case, effort: &Effort) -> (Row, Ours, Vec<Peer>) {
     (row, ours, peers)
 }
 
-/// Frames of a row: small worlds are over in no time, and would give but a few milliseconds to take a median of.
+/// Frames of a row: small worlds take so little time that more frames are needed for a median.
 fn frames(count: usize, effort: &Effort) -> usize {
     effort.rounds * (100_000 / count.max(1)).clamp(1, 20)
 }
 
-/// Time of one variant, in nanoseconds: a frame of a million boxes may take a second.
+/// The time for one variant, in nanoseconds: a frame of a million boxes may take a second.
 fn nanoseconds(count: usize, effort: &Effort) -> f64 {
     effort.nanoseconds() * if count >= 1_000_000 { 3.0 } else { 1.0 }
 }
 
-/// Notes that two ways differ: the first time says it all.
+/// Notes that two variants differ; once per row is enough.
 fn object(row: &mut Row, text: &str) {
     if !row.note.contains("DIFFER") {
         row.remark(text);
     }
 }
 
-/// Forgets what was measured to warm up, if there is time for more.
+/// Discards warm-up samples, if there is time for more.
 fn forget(samples: &mut Samples, limit: f64) {
     if samples.spent() < limit {
         *samples = Samples::default();
@@ -163,7 +164,7 @@ fn report(row: &mut Row, ours: &Ours, peers: &[Peer]) {
     row.broad = Some(figures);
 }
 
-/// Goals were set before the peer could take leaves out and put them in again: without that way the ratio is another.
+/// Goals were set before the peer could remove and reinsert leaves: without those ways the ratio is different.
 fn remark_on_older_ways(row: &mut Row, figures: &Figures) {
     let is_new = |mode: &str| mode.contains("reinsert") || mode.contains("split");
     let older = figures.peers.iter().find(|peer| !is_new(peer.mode));
@@ -172,9 +173,9 @@ fn remark_on_older_ways(row: &mut Row, figures: &Figures) {
     }
 }
 
-/// Which pairs a frame wants: a box has layers, and layers that it meets.
+/// The pairs that a frame wants: each box has layers, and a mask of layers that it collides with.
 ///
-/// Where nothing is fixed, every box is in one layer and meets it: the filter costs what it costs, and drops nothing.
+/// Where nothing is fixed, every box is in one layer and collides with it: the filter has its cost, but drops nothing.
 #[derive(Clone, Debug)]
 struct Filter {
     layers: Vec<[u32; 2]>,
@@ -199,16 +200,16 @@ impl Filter {
     }
 }
 
-/// A scene as both sides see it.
+/// A scene in the form of both sides.
 struct Stage {
     moving: MovingBoxes,
     converted: Vec<Aabb>,
     filter: Filter,
-    /// Whether it may pay to keep something from frame to frame.
+    /// Whether keeping data from frame to frame may pay.
     few_move: bool,
 }
 
-/// One frame for our side.
+/// The data of one frame for our side.
 struct Frame<'a> {
     boxes: &'a [Aabb3],
     moved: &'a [u32],

@@ -1,15 +1,15 @@
-//! What certainty costs: yes or no by the first tier alone beside yes or no that is never wrong.
+//! The cost of certainty: yes or no by the first tier alone, beside yes or no that is never wrong.
 //!
-//! | figure | of |
+//! | figure | meaning |
 //! |---|---|
 //! | `fast_ns` | `Pair3::new` and `guess`: the first tier, right or wrong |
 //! | `certain_ns` | `Pair3::new` and `overlaps` |
-//! | `f64_share`, `exact_share` | pairs that the second and the third tier settled, by `verdict` |
-//! | `wrong` | pairs of a subset on which `overlaps` is not what exact arithmetic says |
+//! | `f64_share`, `exact_share` | share of the pairs decided by the second and by the third tier, from `verdict` |
+//! | `wrong` | pairs of a subset for which `overlaps` differs from exact arithmetic |
 //!
-//! Sets are measured in blocks that the two take in turns; the figure is the median of the blocks, in nanoseconds a
-//! pair. The sets are what a broad phase hands over (`mixed`), faces on faces sunk by 1e-3 to 1e-5 of size (`rest3` to
-//! `rest5`), walls of bricks, polygons in the plane, and every family of hard cases.
+//! Sets are measured in blocks, by both variants in turns; the figure is the median of the blocks, in nanoseconds per
+//! pair. The sets are pairs as from a broad phase (`mixed`), faces on faces with an overlap of 1e-3 to 1e-5 of size
+//! (`rest3` to `rest5`), walls of bricks, polygons in the plane, and every family of hard cases.
 
 mod bricks;
 mod rest;
@@ -27,18 +27,18 @@ use serde::Serialize;
 pub use bricks::bricks;
 pub use rest::{rest2, rest3};
 
-/// How often a query of the exact tier is repeated to be timed: reading the clock costs about as much as one.
+/// How often a query of the exact tier is repeated for one timing: reading the clock costs about as much as one query.
 const REPEATS: usize = 8;
 
-/// Most queries of the exact tier that are timed.
+/// The most queries of the exact tier that are timed.
 const EXACT_QUERIES: usize = 500;
 
-/// How the shapes of a row lie.
+/// How the shapes of a row are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
     /// [`PairSet::Mixed`].
     Mixed,
-    /// Face on face, sunk by ten to the minus so many of size.
+    /// Face on face, with an overlap of ten to the minus so many of size.
     Rest(u8),
 }
 
@@ -57,30 +57,30 @@ pub enum Case {
     Hard2(&'static Family2),
 }
 
-/// What a row found. The first seven fields are read by others and keep their names.
+/// The result of a row. The first seven fields are read by other programs and keep their names.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CertainRow {
     /// The case.
     pub row: String,
-    /// Median nanoseconds a pair of the first tier alone.
+    /// Median nanoseconds per pair for the first tier alone.
     pub fast_ns: f64,
-    /// Median nanoseconds a pair of the certain answer.
+    /// Median nanoseconds per pair for the certain answer.
     pub certain_ns: f64,
-    /// The second over the first.
+    /// `certain_ns` divided by `fast_ns`.
     pub ratio: f64,
-    /// Share of the pairs that the f64 tier settled.
+    /// The share of the pairs that the f64 tier decided.
     pub f64_share: f64,
-    /// Share of the pairs that exact arithmetic settled.
+    /// The share of the pairs that exact arithmetic decided.
     pub exact_share: f64,
     /// Wrong answers among the pairs that were checked.
     pub wrong: usize,
-    /// Median nanoseconds of a query that exact arithmetic settled; nothing where there is none.
+    /// Median nanoseconds of a query that exact arithmetic decided; `None` if there is none.
     pub exact_ns: Option<f64>,
     /// Pairs in the set.
     pub n: usize,
-    /// Pairs that were checked against the exact judge.
+    /// Pairs that were checked against exact arithmetic.
     pub n_checked: usize,
-    /// Wrong answers of the first tier alone among them.
+    /// Wrong answers of the first tier alone, among those.
     pub wrong_fast: usize,
 }
 
@@ -126,7 +126,7 @@ pub fn name(case: &Case) -> String {
     }
 }
 
-/// Measures one row. Cost: about a second a variant, making the pairs, and the exact judge.
+/// Measures one row. Cost: about a second per variant, and making and checking the pairs.
 ///
 /// ```
 /// use asunder_benches::{certain::{Case, Lie, measure}, clock::Effort};
@@ -138,7 +138,7 @@ pub fn name(case: &Case) -> String {
 /// ```
 pub fn measure(case: &Case, effort: &Effort) -> CertainRow {
     let (row, pairs) = (name(case), effort.pairs);
-    // Some hard cases have hundreds of vertices, and are as slow to make as to judge.
+    // Some hard cases have hundreds of vertices, and take as long to make as to check.
     let hard = pairs / 5;
     match case {
         Case::Solid(kind, Lie::Mixed) => of_pairs(row, &pairs3(*kind, PairSet::Mixed, pairs, 1), effort),
@@ -155,7 +155,7 @@ pub fn measure(case: &Case, effort: &Effort) -> CertainRow {
     }
 }
 
-/// Ten to the minus so many.
+/// Ten to the power of minus `digits`.
 fn share(digits: u8) -> f64 {
     (0..digits).fold(1.0, |share, _| share * 0.1)
 }
@@ -187,7 +187,7 @@ fn of_pairs<P: Posed>(row: String, pairs: &[P], effort: &Effort) -> CertainRow {
     }
 }
 
-/// Both answers for the same blocks, one after the other; who is first changes from block to block.
+/// Both variants on the same blocks, one after the other; which comes first alternates from block to block.
 fn in_turns<P: Posed>(pairs: &[P], effort: &Effort) -> [Samples; 2] {
     let mut samples = [Samples::default(), Samples::default()];
     let first = pairs.first().map_or(0.0, |pair| time(|| pair.overlaps()).0);
@@ -208,7 +208,7 @@ fn in_turns<P: Posed>(pairs: &[P], effort: &Effort) -> [Samples; 2] {
     samples
 }
 
-/// The median cost of some queries, each timed by itself.
+/// The median cost of some queries, each timed on its own.
 fn one_by_one<P: Posed>(pairs: &[&P]) -> Option<f64> {
     let mut samples = Samples::default();
     for pair in pairs.iter().step_by(pairs.len().div_ceil(EXACT_QUERIES).max(1)) {

@@ -38,12 +38,12 @@ impl Samples {
         self.spent += spent;
     }
 
-    /// The middle sample; the lower of two. Nothing before the first. Cost: a sort.
+    /// The median; of two middle samples, the lower. `None` without samples. Cost: a sort.
     pub fn median(&self) -> Option<f64> {
         quantiles(&self.ns, [0.5]).map(|[median]| median)
     }
 
-    /// The middle half of the samples. Nothing before the first. Cost: a sort.
+    /// The median and the quartiles. `None` without samples. Cost: a sort.
     ///
     /// ```
     /// use asunder_benches::clock::{Samples, Spread};
@@ -73,20 +73,20 @@ impl Samples {
     }
 }
 
-/// Median and quartiles of some samples.
+/// The median and the quartiles of some samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// A quarter of the samples lie below.
+    /// A quarter of the samples are below.
     pub low: f64,
-    /// Half of them do.
+    /// Half of the samples are below.
     pub median: f64,
-    /// Three quarters do.
+    /// Three quarters of the samples are below.
     pub high: f64,
 }
 
-/// The samples below which such shares of all lie: of those that there are, the one at that place between the first
-/// and the last, rounded away from the middle, so that few samples never look steadier than they are; the median
-/// is the lower of two. Nothing of none; a NaN counts as the greatest. Cost: a sort.
+/// The quantiles of some samples: for each share, the sample at that place between the first and the last. Places are
+/// rounded away from the middle, so that few samples never look steadier than they are; the median is the lower of two.
+/// `None` without samples; NaN counts as the greatest. Cost: a sort.
 ///
 /// ```
 /// use asunder_benches::clock::quantiles;
@@ -104,7 +104,7 @@ pub fn quantiles<const N: usize>(samples: &[f64], shares: [f64; N]) -> Option<[f
     Some(shares.map(|share| sorted[place(share).min(last)]))
 }
 
-/// How much a row may cost.
+/// The effort spent on a row.
 ///
 /// ```
 /// use asunder_benches::clock::Effort;
@@ -112,9 +112,9 @@ pub fn quantiles<const N: usize>(samples: &[f64], shares: [f64; N]) -> Option<[f
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// CPU seconds a variant of a row.
+    /// CPU seconds per variant of a row.
     pub seconds: f64,
-    /// Most frames or rounds, where the time allows more.
+    /// The most frames or rounds, even where the time allows more.
     pub rounds: usize,
     /// Pairs in a set of the narrow phase.
     pub pairs: usize,
@@ -123,12 +123,12 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// What a published figure takes: about a second a variant.
+    /// For figures to be published: about a second per variant.
     pub const fn full() -> Self {
         Self { seconds: 1.0, rounds: 60, pairs: 10_000, is_quick: false }
     }
 
-    /// A look: some tenths of a second a variant, smaller sets.
+    /// For a quick look: some tenths of a second per variant, and smaller sets.
     pub const fn quick() -> Self {
         Self { seconds: 0.15, rounds: 12, pairs: 2000, is_quick: true }
     }

@@ -1,6 +1,6 @@
 //! Narrow phase in the plane: the twin of [`narrow`](crate::narrow), without a peer.
 //!
-//! Our answers to a part of each set are held against true separations in double-double, as they are in space.
+//! Our answers for a part of each set are compared with true separations in double-double, as in space.
 
 pub(crate) mod grown;
 mod judged;
@@ -19,11 +19,11 @@ use core::hint::black_box;
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// A family of shapes, a set of pairs, a question.
+    /// A family of shapes, a set of pairs, and a query.
     Of(PlaneKind, PairSet, Operation),
-    /// Circles and capsules, a set of pairs, a question.
+    /// Circles and capsules: a set of pairs, and a query.
     Round(PairSet, Operation),
-    /// Ellipses of so many vertices, how they lie, and a question: how its cost grows.
+    /// Ellipses of so many vertices, their placement, and a query: how its cost grows.
     Grown(usize, Lie, Operation),
 }
 
@@ -36,7 +36,7 @@ impl Case {
         }
     }
 
-    /// The question.
+    /// The query.
     const fn operation(&self) -> Operation {
         match *self {
             Self::Of(.., operation) | Self::Round(_, operation) | Self::Grown(.., operation) => operation,
@@ -44,7 +44,7 @@ impl Case {
     }
 }
 
-/// The questions asked of each family.
+/// The queries for each family.
 const QUESTIONS: [(PairSet, Operation); 13] = [
     (PairSet::Mixed, Operation::Boolean),
     (PairSet::Mixed, Operation::Separation),
@@ -64,7 +64,8 @@ const QUESTIONS: [(PairSet, Operation); 13] = [
 /// The sets of circles and capsules, which have no edges to rest on.
 const ROUND: [PairSet; 4] = [PairSet::Mixed, PairSet::Far, PairSet::Touch, PairSet::Deep];
 
-/// Vertices of the polygons whose cost grows, and what is asked of them. Circles tell the yes or no of deep ones.
+/// Numbers of vertices of the polygons whose cost grows, and the queries for them. Circles decide the yes or no of deep
+/// ones.
 const SIZES: [usize; 10] = [8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 const OF_GROWN: [(Lie, Operation); 6] = [
     (Lie::Apart, Operation::Boolean),
@@ -92,7 +93,7 @@ pub fn cases() -> Vec<Case> {
         .flat_map(|(lie, operation)| SIZES.map(|vertices| Case::Grown(vertices, lie, operation)));
     let of_round = QUESTIONS.into_iter().filter(|(set, _)| ROUND.contains(set));
     let round = of_round.map(|(set, operation)| Case::Round(set, operation));
-    // Choosing which of the mixed pairs of huge polygons are apart would take longer than the row.
+    // To choose which of the mixed pairs of huge polygons are apart would take longer than the row.
     let is_slow = |case: &Case| matches!(case, Case::Of(PlaneKind::Poly4096, PairSet::Mixed, _));
     of_kinds.filter(|case| !is_slow(case)).chain(round).chain(grown).collect()
 }
@@ -163,7 +164,7 @@ fn fresh(operation: Operation, pairs: &[PosedPair2], effort: &Effort, row: &mut 
     samples
 }
 
-/// Returns something of the answer, so that none of it can be left out.
+/// Returns a number from the answer, so that none of it can be optimised away.
 fn ask(operation: Operation, posed: &PosedPair2) -> f32 {
     let pair = Pair2::new(&posed.shape_a, &posed.pose_a, &posed.shape_b, &posed.pose_b);
     match operation {
@@ -180,7 +181,7 @@ fn ask(operation: Operation, posed: &PosedPair2) -> f32 {
     }
 }
 
-/// Frame after frame, each with the hints of the last; the first frame is not timed.
+/// Frame after frame, each with the hints of the previous one; the first frame is not timed.
 fn cached(pairs: &[PosedPair2], effort: &Effort, row: &mut Row) -> Samples {
     let mut samples = Samples::default();
     let tracks = (pairs.len() / FRAMES).max(1);
@@ -198,7 +199,7 @@ fn cached(pairs: &[PosedPair2], effort: &Effort, row: &mut Row) -> Samples {
     samples
 }
 
-/// What is remembered of a frame's pairs.
+/// The hints kept from a frame's pairs.
 struct Memory {
     hints: Vec<Hint>,
     batch: Batch2,

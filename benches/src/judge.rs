@@ -1,7 +1,7 @@
 //! True separations of many pairs in space, in double-double.
 //!
-//! It is the oracle of the tests (`asunder_tests::precise`), with one thing kept: sets draw from few different
-//! hulls, and finding a hull's facets exactly takes far longer than anything else about a pair.
+//! This is the oracle of the tests (`asunder_tests::precise`), with one addition: it keeps the facets of hulls, since
+//! sets draw from few different hulls, and finding facets exactly takes far longer than anything else.
 
 use asunder_geometry::Shape3;
 use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind};
@@ -11,7 +11,7 @@ use asunder_tests::precise::nearest::{NOISE, nearest};
 use asunder_tests::precise::place::{Piece, pieces3};
 use asunder_tests::precise::separation3;
 
-/// Knows the facets of the hulls it has seen, and the truths of the sets it has judged.
+/// Keeps the facets of the hulls it has seen, and the truths of the sets it has judged.
 ///
 /// ```
 /// use asunder_benches::judge::Judge;
@@ -26,9 +26,9 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// The separation in metres, right to a unit or two in the last place of an f64. Cost in overlap: 50 us for
-    /// boxes, 0.5 ms for hulls of 32 vertices, 6 ms for 128, 20 ms for 256, and about half as much again for each
-    /// hull seen first.
+    /// The separation in metres, accurate to a unit or two in the last place of an f64. Cost in overlap: 50 us for
+    /// boxes, 0.5 ms for hulls of 32 vertices, 6 ms for 128, 20 ms for 256, and about half as much again for each hull
+    /// seen for the first time.
     pub fn separation(&mut self, pair: &PosedPair3) -> f64 {
         let origin = pair.pose_a.position();
         let (a, b) =
@@ -43,15 +43,15 @@ impl Judge {
             let gap =
                 deepest3(Body { hull: a, form: &self.forms[i].1 }, Body { hull: b, form: &self.forms[j].1 })
                     .gap;
-            // A hair's gap, that the distance alone could not show.
+            // A tiny gap that the distance alone might not show.
             if gap.to_f64() > 0.0 { found.upper.max(gap) } else { gap }
         };
         (cores - radius_a - radius_b).to_f64()
     }
 
-    /// The separations of some pairs of a set, found once and then remembered.
+    /// The separations of some pairs of a set, computed once and then remembered.
     ///
-    /// The same pairs must be given for the same set every time.
+    /// The same pairs must be given for a set every time.
     pub fn separations(&mut self, set: (SolidKind, PairSet), pairs: &[PosedPair3]) -> Vec<f64> {
         if let Some((_, known)) = self.sets.iter().find(|(known, _)| *known == set) {
             return known.clone();
@@ -61,7 +61,7 @@ impl Judge {
         found
     }
 
-    /// The index of a shape's facets.
+    /// The index of a shape's facets, which are computed if new.
     fn form(&mut self, shape: &Shape3, stored: &[glam::DVec3]) -> usize {
         if let Some(known) = self.forms.iter().position(|(known, _)| known == shape) {
             return known;
@@ -75,7 +75,7 @@ fn of_oracle(pair: &PosedPair3) -> f64 {
     separation3((&pair.shape_a, &pair.pose_a), (&pair.shape_b, &pair.pose_b)).separation
 }
 
-/// A piece's core and radius, unless it is a half-space.
+/// A piece's core and radius; `None` for a half-space.
 fn hull(piece: &Piece) -> Option<(Hull<'_>, asunder_tests::precise::dd::Dd)> {
     match piece {
         Piece::Round { cloud, stored, turn, radius } => Some((Hull { cloud, stored, turn }, *radius)),

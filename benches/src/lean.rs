@@ -1,9 +1,9 @@
-//! The judge of whole frames: a pipeline over parry3d with nothing in it that a frame does not need.
+//! The judge of whole frames: a pipeline over parry3d that does nothing a frame does not need.
 //!
-//! - Fixed bodies are in a tree of their own, built once: pairs among them cost nothing.
+//! - Fixed bodies are in a tree of their own, built once: pairs of them cost nothing.
 //! - Leaves of bodies that moved are set without margin, then `optimize_incremental` and `refit`, as rapier does.
-//! - A pair's manifold is kept from frame to frame, so that parry3d can update it in place; a pair in which neither
-//!   body moved is not asked about again.
+//! - A pair's manifold is kept from frame to frame, so that parry3d can update it in place; a pair of which neither
+//!   body moved is not queried again.
 //! - Pairs are records in one vector, found by parry3d's own fast hash map; no events, no sorting, no layers.
 
 use parry3d::bounding_volume::{Aabb, BoundingVolume};
@@ -24,13 +24,13 @@ pub struct LeanBody {
     pub shape: SharedShape,
     /// Where it is.
     pub pose: Pose,
-    /// It never moves.
+    /// Whether it never moves.
     pub fixed: bool,
-    /// Bodies with the same owner are no pair.
+    /// Two bodies with the same owner are no pair.
     pub owner: Option<u64>,
 }
 
-/// Bodies, trees and the records of pairs.
+/// Bodies, trees, and the records of pairs.
 ///
 /// ```
 /// use asunder_benches::lean::{Lean, LeanBody};
@@ -50,12 +50,12 @@ pub struct LeanBody {
 /// ```
 pub struct Lean {
     bodies: Vec<LeanBody>,
-    /// Boxes of this frame, grown by half the prediction.
+    /// The AABBs of this frame, grown by half the prediction.
     bounds: Vec<Aabb>,
     fixed: Bvh,
     moving: Bvh,
     workspace: BvhWorkspace,
-    /// Frame in which a body last moved.
+    /// For each body, the frame in which it last moved.
     moved_in: Vec<u32>,
     moved: Vec<u32>,
     frame: u32,
@@ -68,25 +68,25 @@ pub struct Lean {
 
 struct Record {
     pair: (u32, u32),
-    /// Frame in which the boxes last overlapped.
+    /// The frame in which the AABBs last overlapped.
     seen_in: u32,
     manifolds: Vec<ContactManifold<(), ()>>,
     workspace: Option<ContactManifoldsWorkspace>,
 }
 
-/// What walking all contact points came across.
+/// What a walk over all contact points found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Walked {
     /// Pairs with at least one point.
     pub contacts: usize,
     /// Contact points.
     pub points: usize,
-    /// Sum of what was read, so that nothing is left out.
+    /// The sum of what was read, so that nothing is optimised away.
     pub checksum: f32,
 }
 
 impl Lean {
-    /// A pipeline that keeps points up to `prediction` metres apart.
+    /// A pipeline that keeps points with gaps of up to `prediction` metres.
     pub fn new(bodies: Vec<LeanBody>, prediction: f32) -> Self {
         let bounds: Vec<Aabb> = bodies.iter().map(|body| grown(body, prediction)).collect();
         let leaves = |fixed: bool| -> Vec<(usize, Aabb)> {
@@ -116,7 +116,7 @@ impl Lean {
         self.moved.push(index);
     }
 
-    /// Brings all contacts up to date.
+    /// Updates all contacts.
     pub fn update(&mut self) {
         self.frame += 1;
         let stages = [Self::refit, Self::find_pairs, Self::keep_records, Self::collide];
@@ -127,12 +127,12 @@ impl Lean {
         }
     }
 
-    /// Wall-clock times of the last update: of the trees, of finding pairs, of keeping records, of contacts.
+    /// Wall-clock times of the last update: updating the trees, finding pairs, keeping records, computing contacts.
     pub fn times(&self) -> [Duration; 4] {
         self.times
     }
 
-    /// Pairs whose boxes overlapped at the last update.
+    /// Pairs whose AABBs overlapped at the last update.
     pub fn candidates(&self) -> usize {
         self.records.len()
     }
@@ -181,14 +181,14 @@ impl Lean {
             }
         });
         for (a, b) in self.moving.leaf_pairs(&self.fixed, BvhNode::intersects) {
-            // The roots' first children are handed over untested.
+            // The roots' first children are reported without a test.
             if self.bounds[a as usize].intersects(&self.bounds[b as usize]) && admits(a, b) {
                 found.push((a.min(b), a.max(b)));
             }
         }
     }
 
-    /// Makes records of new pairs, and drops those whose boxes have parted.
+    /// Adds records for new pairs, and removes those whose AABBs no longer overlap.
     fn keep_records(&mut self) {
         for &pair in &self.found {
             let place = *self.places.entry(pair).or_insert(self.records.len() as u32) as usize;
@@ -232,7 +232,7 @@ impl Lean {
     }
 }
 
-/// parry3d 0.31.1's own construction takes one or two leaves to be numbered 0 and 1.
+/// Works around parry3d 0.31.1, whose construction assumes that one or two leaves are numbered 0 and 1.
 fn tree(leaves: &[(usize, Aabb)]) -> Bvh {
     if leaves.len() > 2 {
         return Bvh::from_iter(BvhBuildStrategy::Binned, leaves.iter().copied());

@@ -1,8 +1,8 @@
-//! Bodies, questions, rays and casts on triangle meshes, beside parry3d's `TriMesh`.
+//! Bodies, queries, rays and casts on triangle meshes, beside parry3d's `TriMesh`.
 //!
-//! The ground is hills in cells of a metre, or a plane cut into the same triangles. Bodies stand apart, so that all
-//! contacts are with the ground; both sides keep contacts up to 2 cm apart, and parry3d keeps its manifolds from frame
-//! to frame.
+//! The ground is hills in cells of a metre, or a plane with the same triangulation. Bodies are apart from each other,
+//! so that all contacts are with the ground; both sides keep contacts with gaps of up to 2 cm, and parry3d keeps its
+//! manifolds from frame to frame.
 
 mod asked;
 
@@ -25,28 +25,28 @@ use std::error::Error;
 /// What a row measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A frame with bodies that all but rest: each moves by a tenth of a millimetre.
+    /// A frame with bodies almost at rest: each moves by a tenth of a millimetre.
     Rest(Bodies),
     /// The same on a plane.
     Flat(Bodies),
-    /// A frame with bodies that move on by two centimetres.
+    /// A frame with bodies that move by two centimetres.
     Roll(Bodies),
-    /// A ray from above, at a slant.
+    /// A slanted ray from above.
     Rays,
-    /// One body and the ground.
+    /// A query for one body and the ground.
     Asked(Question, Bodies),
-    /// Making the mesh, a triangle.
+    /// Building the mesh; the time is per triangle.
     Build,
 }
 
-/// What stands on the ground, or is held against it.
+/// The bodies on the ground, or in queries with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bodies {
     /// Cuboids with a side of 0.8 m.
     Boxes,
-    /// Hulls of 32 points as large as those.
+    /// Hulls of 32 points, of the same size.
     Hulls,
-    /// Spheres as large.
+    /// Spheres of the same size.
     Spheres,
 }
 
@@ -62,14 +62,14 @@ impl Bodies {
     }
 }
 
-/// What is asked about a body and the ground.
+/// A query for a body and the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// Where it touches as it flies down at a slant.
+    /// Where it touches the ground as it flies down at a slant.
     Cast,
     /// Whether they touch; half of the bodies do.
     Overlap,
-    /// How far they are apart: up to 3 m.
+    /// How far they are apart, up to 3 m.
     Distance,
 }
 
@@ -88,7 +88,7 @@ impl Question {
 /// One row: what is measured, and on how many triangles.
 pub type Case = (Kind, usize);
 
-/// Bodies in a row.
+/// Bodies per row.
 const BODIES: usize = 1000;
 
 /// Every row.
@@ -127,10 +127,10 @@ pub fn name(&(kind, triangles): &Case) -> String {
     format!("{kind}/{}k", triangles / 1000)
 }
 
-/// Measures one row, on one thread. Cost: about a second a variant, and what the mesh takes to be made.
+/// Measures one row, on one thread. Cost: about a second per variant, and building the mesh.
 ///
 /// # Errors
-/// What refuses to be made, on either side.
+/// A shape or mesh that either side rejects.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, mesh::{self, Bodies, Kind, Question}};
@@ -202,9 +202,9 @@ fn frames(
 
 /// Bodies on the ground.
 struct Standing {
-    /// The ground first.
+    /// All bodies, the ground first.
     bodies: Vec<Body3>,
-    /// Which way each of them goes, along the ground.
+    /// The direction in which each of them moves, along the ground.
     ways: Vec<DVec3>,
 }
 
@@ -228,7 +228,7 @@ impl Standing {
             let cell = [number % across, number / across].map(|i| (i as f64 + 0.5) * spacing + 2.0);
             let shape = shape_of(bodies, &mut random)?;
             let (height, normal) = terrain.under(cell);
-            // Down until it touches, then a millimetre in.
+            // Down until it touches, then a millimetre further.
             let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
             let above = Pose3::new(DVec3::new(cell[0], height, cell[1]) + normal, upright)?;
             let down = normal * -2.0;
@@ -245,7 +245,7 @@ impl Standing {
         Ok(standing)
     }
 
-    /// Where the bodies are in a frame: there and back, within a metre of where they began.
+    /// The poses of the bodies in a frame: back and forth, within a metre of where they began.
     fn poses(&self, frame: usize, step: f64) -> Result<Vec<(u32, Pose3)>, Box<dyn Error>> {
         let turn = frame % 40;
         let way = step * (if turn < 20 { turn } else { 40 - turn }) as f64;

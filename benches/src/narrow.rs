@@ -1,4 +1,4 @@
-//! Narrow phase in space: one question about many pairs, beside parry3d's same question.
+//! Narrow phase in space: one query for many pairs, beside the same query of parry3d.
 //!
 //! | operation | ours | parry3d |
 //! |---|---|---|
@@ -6,16 +6,16 @@
 //! | separation | `Pair3::separation(0)` | `contact` with prediction 0 |
 //! | distance | `Pair3::distance` | `distance` |
 //! | manifold | `Pair3::manifold(0)` | `contact_manifolds` into an empty manifold |
-//! | cached | `collide3` with last frame's hints | `contact_manifolds` into last frame's manifold |
-//! | `box8`: boolean, manifold | `collide3` over a slice of sensors, of bodies, without hints | as above, one by one |
+//! | cached | `collide3` with the last frame's hints | `contact_manifolds` into the last frame's manifold |
+//! | `box8`: boolean, manifold | `collide3` over a slice of sensors or bodies, without hints | as above, one by one |
 //! | `box8`: separation | `separations3` | as above, one by one |
 //!
-//! A set is measured in blocks of a few hundred pairs that the variants take in turns; the figure is the median of the
-//! blocks, in nanoseconds a pair. Making the relative pose is part of the question.
+//! A set is measured in blocks of a few hundred pairs, by the variants in turns; the figure is the median of the
+//! blocks, in nanoseconds per pair. Computing the relative pose is part of the query.
 //!
-//! Both sides' answers to a part of the set, spread over all of it, are held against true separations in
-//! double-double ([`Judge`], [`Accuracy`]). Depths of manifolds are those of their deepest
-//! points. Rows of growing hulls also tell the slowest single pair.
+//! Both sides' answers for a part of the set, spread over all of it, are compared with true separations in
+//! double-double ([`Judge`], [`Accuracy`]). The depth of a manifold is that of its deepest point. Rows of growing hulls
+//! also report the slowest single pair.
 
 pub(crate) mod both;
 mod cached;
@@ -30,22 +30,22 @@ use asunder_narrow::{Batch3, Hint, Job3, Pair3, collide3, separations3};
 use asunder_scenes::pairs::{FRAMES, PairSet, PosedPair3, SolidKind, frames3, pairs3};
 use both::{Both, Peer};
 
-/// Most pairs in a block.
+/// The most pairs in a block.
 const BLOCK: usize = 250;
 
-/// Most pairs in a set of growing hulls: placing them costs as much as asking about them.
+/// The most pairs in a set of growing hulls: placing them costs as much as querying them.
 const GROWTH_PAIRS: usize = 1000;
 
-/// Pairs that are timed one by one for the slowest, and how often each, of which the least counts.
+/// Pairs that are timed one by one to find the slowest, and how often each: the least time counts.
 const ALONE: usize = 100;
 const REPEATS: usize = 3;
 
-/// Pairs in a block, so that a row has some blocks however slow it is.
+/// Pairs per block, so that a row has several blocks however slow it is.
 pub(crate) fn block_size(ns_of_one: f64, effort: &Effort) -> usize {
     ((effort.nanoseconds() / (8.0 * ns_of_one.max(1.0))) as usize).clamp(1, BLOCK)
 }
 
-/// The question of a row.
+/// The query of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// Do they overlap?
@@ -56,7 +56,7 @@ pub enum Operation {
     Distance,
     /// At which points do they touch?
     Manifold,
-    /// The same, knowing last frame's answer.
+    /// The same, with the last frame's answer as a hint.
     Cached,
 }
 
@@ -77,20 +77,20 @@ impl Operation {
     }
 }
 
-/// One row: a family of shapes, a set of pairs, a question.
+/// One row: a family of shapes, a set of pairs, and a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Case {
     /// The family.
     pub kind: SolidKind,
-    /// How the pairs lie.
+    /// The set of pairs.
     pub set: PairSet,
-    /// The question.
+    /// The query.
     pub operation: Operation,
-    /// Whether we are given many pairs at once, without hints: a boolean or a manifold.
+    /// Whether we get many pairs at once, without hints.
     pub at_once: bool,
 }
 
-/// The questions asked of each family.
+/// The queries for each family.
 const QUESTIONS: [(PairSet, Operation); 13] = [
     (PairSet::Mixed, Operation::Boolean),
     (PairSet::Mixed, Operation::Separation),
@@ -107,7 +107,7 @@ const QUESTIONS: [(PairSet, Operation); 13] = [
     (PairSet::Deep, Operation::Separation),
 ];
 
-/// The sets on which growing hulls are asked for their separation.
+/// The sets on which growing hulls are queried for their separation.
 const GROWTH_SETS: [PairSet; 4] = [PairSet::Mixed, PairSet::Deep, PairSet::Same, PairSet::Turned];
 
 /// Every row.
@@ -151,7 +151,7 @@ pub fn name(case: &Case) -> String {
     format!("{}{lanes}/{}/{}", case.kind.name(), case.set.name(), case.operation.name())
 }
 
-/// Measures one row. Cost: about a second a variant, and making and judging the pairs.
+/// Measures one row. Cost: about a second per variant, and making and judging the pairs.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, judge::Judge, narrow::{Case, Operation, measure}};
@@ -194,7 +194,7 @@ pub fn measure(case: &Case, effort: &Effort, judge: &mut Judge) -> Row {
     row
 }
 
-/// How many pairs of a set are judged at most, so that the judge takes some two seconds.
+/// The most pairs of a set that are judged, so that the judge takes some two seconds.
 fn most_judged(kind: SolidKind, set: PairSet, effort: &Effort) -> usize {
     let most = match kind {
         SolidKind::Box | SolidKind::Authored | SolidKind::Hull8 | SolidKind::Hull16 => 10_000,
@@ -208,7 +208,8 @@ fn most_judged(kind: SolidKind, set: PairSet, effort: &Effort) -> usize {
     if effort.is_quick { most / 20 } else { most }
 }
 
-/// Both sides' answers to a part of the pairs held against the truth: spread over a set, whole sequences of frames.
+/// Compares both sides' answers with the truth for a part of the pairs: spread over the set, in whole sequences of
+/// frames.
 fn judged(
     case: &Case,
     effort: &Effort,
@@ -219,7 +220,7 @@ fn judged(
     let most = most_judged(case.kind, case.set, effort);
     let width = frames.first().map_or(0, Vec::len);
     let chosen = if case.set.is_sequence() { most.div_ceil(FRAMES) } else { most };
-    // Rounded up: the same for every question about the set.
+    // Rounded up, so that it is the same for every query on the set.
     let step = width.div_ceil(chosen).max(1);
     let truths_of: Vec<PosedPair3> =
         frames.iter().flat_map(|frame| frame.iter().step_by(step).cloned()).collect();
@@ -245,7 +246,7 @@ fn judged(
     accuracy
 }
 
-/// Times blocks of so many pairs by both sides in turns, until the time is up.
+/// Times both sides in turns on blocks of so many pairs, until the time is up.
 fn in_turns<B>(
     blocks: &[(usize, B)],
     effort: &Effort,
@@ -266,7 +267,7 @@ fn in_turns<B>(
     race
 }
 
-/// Questions without memory, one by one.
+/// Queries without hints, one by one.
 fn fresh(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> Race {
     let first = pairs.first().map_or(0.0, |both| time(|| both.ask(operation)).0);
     let blocks = pairs.chunks(block_size(first, effort));
@@ -276,7 +277,7 @@ fn fresh(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -
     in_turns(&blocks, effort, row, ours, |block| block.iter().map(|both| peer.ask(operation, both)).sum())
 }
 
-/// Questions without memory, many at once. The jobs are there beforehand, as the peer's shapes are.
+/// Queries without hints, many at once. The jobs are made beforehand, as the peer's shapes are.
 fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row) -> Race {
     let is_sensor = operation == Operation::Boolean;
     let blocks: Vec<(usize, Block<'_>)> =
@@ -298,7 +299,7 @@ fn batched(operation: Operation, pairs: &[Both], effort: &Effort, row: &mut Row)
     })
 }
 
-/// Pairs, and the jobs that they are for us.
+/// Pairs, and our jobs for them.
 struct Block<'a> {
     pairs: &'a [Both],
     ours: Vec<Pair3<'a>>,
@@ -312,7 +313,7 @@ impl<'a> Block<'a> {
     }
 }
 
-/// The slowest of some pairs, each timed by itself: the least of a few times, which no interruption makes longer.
+/// The slowest of some pairs, each timed on its own: the least of a few times, which no interruption can prolong.
 fn slowest(pairs: &[Both], effort: &Effort, row: &mut Row) {
     let count = if effort.is_quick { ALONE / 5 } else { ALONE };
     let (mut ours, mut theirs, mut peer) = (0.0_f64, 0.0_f64, Peer::default());

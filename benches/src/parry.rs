@@ -1,4 +1,4 @@
-//! Our types as parry3d's.
+//! Converts our types to parry3d's.
 
 use asunder_geometry::{Aabb3, Part3, Pose3, Shape3};
 use glam::Vec3;
@@ -6,7 +6,7 @@ use parry3d::bounding_volume::Aabb;
 use parry3d::math::Pose;
 use parry3d::shape::SharedShape;
 
-/// Turns shapes into parry3d's, each different hull once.
+/// Converts shapes to parry3d's, each different hull once.
 ///
 /// ```
 /// use asunder_benches::parry::Shapes;
@@ -24,10 +24,11 @@ pub struct Shapes {
 }
 
 impl Shapes {
-    /// The same shape for parry3d; nothing where it refuses the hull. Cost: for a hull, a search among the
+    /// The same shape for parry3d; `None` where it rejects the hull. Cost: for a hull, a linear search among the
     /// different ones.
     pub fn convert(&mut self, shape: &Shape3) -> Option<SharedShape> {
-        // A city has a million cuboids, no two of them alike; what costs to convert comes in few kinds.
+        // A city has a million cuboids, no two of them alike, and they are cheap to convert; hulls are not, but few
+        // differ.
         let is_dear = matches!(shape, Shape3::Hull(_));
         if is_dear && let Some((_, known)) = self.known.iter().find(|(known, _)| known == shape) {
             return Some(known.clone());
@@ -69,8 +70,8 @@ impl Shapes {
     }
 }
 
-/// The same pose in f32, its rotation of unit length, as parry3d wants it: made so in f64, the least that its types
-/// take away.
+/// The same pose in f32, with a rotation of unit length, as parry3d requires: normalised in f64, so that only the
+/// rounding to its types is lost.
 ///
 /// ```
 /// use asunder_geometry::Pose3;

@@ -1,9 +1,9 @@
-//! Our side and the peer's, in turns.
+//! Times our side and the peer's in turns.
 
 use crate::clock::{Effort, Samples, time};
 use crate::row::Row;
 
-/// Times of both sides of a row, who take turns so that whatever else the machine does falls on both.
+/// Times of both sides of a row. They take turns, so that disturbances of the machine affect both.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, race::Race, row::Row};
@@ -20,13 +20,13 @@ use crate::row::Row;
 pub struct Race {
     /// Our times.
     pub ours: Samples,
-    /// The peer's.
+    /// The peer's times.
     pub peer: Samples,
 }
 
 impl Race {
-    /// One turn of either side, of so many of what the row counts; who is first takes turns, too. Returns what both
-    /// found.
+    /// One turn of each side, in which each does `count` units of the row; which comes first also alternates. Returns
+    /// both results.
     pub fn turn<A, B>(&mut self, count: usize, ours: impl FnOnce() -> A, peer: impl FnOnce() -> B) -> (A, B) {
         let ((ns, found), (peer_ns, found_by_peer)) = if self.ours.len().is_multiple_of(2) {
             let ours = time(ours);
@@ -40,7 +40,7 @@ impl Race {
         (found, found_by_peer)
     }
 
-    /// Turns of so many until it is over, and what is said of what both found first.
+    /// Takes turns until it is over; also returns what `says` makes of the first results.
     pub fn run<A, B>(
         effort: &Effort,
         count: usize,
@@ -56,12 +56,12 @@ impl Race {
         (race, said.unwrap_or_default())
     }
 
-    /// Whether one side has spent the time of a variant.
+    /// Whether one side has used up the time of a variant.
     pub fn is_spent(&self, effort: &Effort) -> bool {
         self.ours.spent().max(self.peer.spent()) > effort.nanoseconds()
     }
 
-    /// Whether there were all rounds, or one side has spent its time.
+    /// Whether all rounds are done, or one side has used up its time.
     pub fn is_over(&self, effort: &Effort) -> bool {
         self.ours.len() >= effort.rounds || self.is_spent(effort)
     }

@@ -1,4 +1,4 @@
-//! One line of results, for people or for programs.
+//! One line of results, as text or as JSON.
 
 use crate::accuracy::Accuracy;
 use crate::broad::figures::Figures;
@@ -23,7 +23,7 @@ pub struct Row {
     pub row: String,
     /// Our time, in nanoseconds per [`Row::per`].
     pub ours_ns: Option<f64>,
-    /// What stands beside us; nothing where there is no peer.
+    /// The peer; `None` where there is none.
     pub peer: Option<&'static str>,
     /// The peer's time, in nanoseconds per [`Row::per`].
     pub peer_ns: Option<f64>,
@@ -33,7 +33,7 @@ pub struct Row {
     /// Quartiles of the peer's time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peer_quartiles: Option<[f64; 2]>,
-    /// The peer's time over ours: above 1 we are faster.
+    /// The peer's time divided by ours: above 1 we are faster.
     pub ratio: Option<f64>,
     /// What the times are for: a `frame` or a `pair`.
     pub per: &'static str,
@@ -41,22 +41,22 @@ pub struct Row {
     pub n: usize,
     /// Frames or pairs that were measured before the time was up.
     pub done: usize,
-    /// Narrow phase: our slowest single pair, in nanoseconds, where cost is watched as shapes grow.
+    /// Narrow phase: our slowest single pair, in nanoseconds, in rows of growing shapes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst_ns: Option<f64>,
     /// The peer's slowest single pair, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peer_worst_ns: Option<f64>,
-    /// Narrow phase: both sides' answers held against the truth.
+    /// Narrow phase: both sides' answers compared with the truth.
     #[serde(flatten)]
     pub accuracy: Option<Accuracy>,
-    /// Broad phase: its parts, and what they cost by box, by pair, and by memory.
+    /// Broad phase: its stages, and its cost per box, per pair, and relative to memory speed.
     #[serde(flatten)]
     pub broad: Option<Figures>,
-    /// Whole frames: their stages.
+    /// Whole frames: times of their stages.
     #[serde(flatten)]
     pub world: Option<world::Figures>,
-    /// What a reader should know: how far a row came, what was found.
+    /// Remarks for the reader: how far a row came, what was found.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub note: String,
 }
@@ -67,17 +67,17 @@ impl Row {
         Self { row: row.into(), per, n, ..Self::default() }
     }
 
-    /// Fills in our time and its quartiles.
+    /// Sets our time and its quartiles.
     pub fn tell(&mut self, ours: &Samples) {
         (self.ours_ns, self.ours_quartiles) = (ours.median(), quartiles(ours));
     }
 
-    /// Fills in who stands beside us, its time and its quartiles.
+    /// Sets the peer's name, its time and its quartiles.
     pub fn tell_peer(&mut self, name: &'static str, peer: &Samples) {
         (self.peer, self.peer_ns, self.peer_quartiles) = (Some(name), peer.median(), quartiles(peer));
     }
 
-    /// Fills in what follows from the figures.
+    /// Computes what follows from the figures.
     pub fn finish(&mut self) {
         self.ratio = match (self.ours_ns, self.peer_ns) {
             (Some(ours), Some(peer)) if ours > 0.0 => Some(peer / ours),
@@ -85,7 +85,7 @@ impl Row {
         };
     }
 
-    /// Appends a sentence to the note.
+    /// Appends a remark to the note.
     pub fn remark(&mut self, text: &str) {
         if !self.note.is_empty() {
             self.note.push_str("; ");
@@ -127,12 +127,12 @@ impl Row {
     }
 }
 
-/// Quartiles of more than one sample.
+/// The quartiles, if there is more than one sample.
 fn quartiles(samples: &Samples) -> Option<[f64; 2]> {
     samples.spread().filter(|_| samples.len() > 1).map(|spread| [spread.low, spread.high])
 }
 
-/// The first line of a table.
+/// The heading of a table.
 ///
 /// ```
 /// assert!(asunder_benches::row::heading().contains("ratio"));
@@ -144,7 +144,7 @@ pub fn heading() -> String {
     )
 }
 
-/// The first line of a table whose rows are judged.
+/// The heading of a table whose rows are judged.
 ///
 /// ```
 /// assert!(asunder_benches::row::heading_with_accuracy().contains("miss"));
@@ -154,7 +154,7 @@ pub fn heading_with_accuracy() -> String {
     format!("{}{}  note", plain.trim_end_matches("note"), Accuracy::heading())
 }
 
-/// The first line of a table of the broad phase.
+/// The heading of a table of the broad phase.
 ///
 /// ```
 /// assert!(asunder_benches::row::heading_with_figures().contains("ns/pair"));
@@ -164,7 +164,7 @@ pub fn heading_with_figures() -> String {
     format!("{}{}  note", plain.trim_end_matches("note"), Figures::heading())
 }
 
-/// A time in at most ten letters, or a dash.
+/// A time in at most ten characters, or a dash.
 pub(crate) fn duration(ns: Option<f64>) -> String {
     match ns {
         None => "-".to_string(),

@@ -1,9 +1,9 @@
-//! Every pair of shapes, and what is asked of one shape alone, beside parry3d's same question.
+//! Every pair of shapes, and queries of single shapes, beside the same queries of parry3d.
 //!
-//! Shapes are about a metre wide, in any pose, half-spaces in the world's axes. Of a set about half overlap. Casts
-//! begin apart, and most of them meet. What is asked of one shape:
+//! Shapes are about a metre wide, in any pose; half-spaces are in the world's axes. About half of the pairs of a set
+//! overlap. Casts begin apart, and most of them hit. Queries of single shapes:
 //!
-//! | question | ours | parry3d |
+//! | query | ours | parry3d |
 //! |---|---|---|
 //! | ray | `cast_ray3` | `cast_ray_and_get_normal` |
 //! | point | `Shape3::contains` | `contains_point` |
@@ -11,7 +11,7 @@
 //! | mass | `Shape3::mass_properties` | `mass_properties` |
 //! | make | `Hull::from_points` | `SharedShape::convex_hull` |
 //!
-//! Pairs are asked as in [`crate::narrow`], and judged as there.
+//! Pairs are queried as in [`crate::narrow`], and judged as there.
 
 mod alone;
 
@@ -31,11 +31,11 @@ use parry3d::math::Vector;
 use parry3d::query::{self, ShapeCastOptions};
 use std::error::Error;
 
-/// Pairs in a set, and those that are judged at most.
+/// Pairs per set, and how many of them are judged at most.
 const PAIRS: usize = 500;
 const JUDGED: usize = 250;
 
-/// What kind of shape.
+/// The kind of a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Spheres.
@@ -102,12 +102,12 @@ fn points(random: &mut Random, size: f32) -> Vec<Vec3> {
     (0..16).map(|_| random.direction().as_vec3() * size).collect()
 }
 
-/// What is asked.
+/// The query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// What [`crate::narrow`] asks.
+    /// A query of [`crate::narrow`].
     Of(Operation),
-    /// Where the first touches as it moves.
+    /// A cast: where the first shape touches the second as it moves.
     Cast,
 }
 
@@ -130,24 +130,24 @@ impl Question {
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
-    /// A question about a pair.
+    /// A query for a pair.
     Pair(Kind, Kind, Question),
-    /// One about a shape alone.
+    /// A query for a single shape.
     Alone(Kind, Alone),
 }
 
-/// What is asked of one shape.
+/// A query for a single shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alone {
-    /// Where a ray meets it; half of them pass by.
+    /// Where a ray hits it; half of the rays miss.
     Ray,
-    /// Whether it holds a point.
+    /// Whether it contains a point.
     Point,
-    /// The box around it in a pose.
+    /// The AABB around it in a pose.
     Bounds,
-    /// Its mass, its centre, its inertia.
+    /// Its mass, centre of mass and inertia.
     Mass,
-    /// Made of its points, where those are many.
+    /// Building it from its points, where there are many.
     Make,
 }
 
@@ -164,7 +164,7 @@ impl Alone {
         }
     }
 
-    /// Half-spaces have no bounds and no mass, what is thin no inside; others than hulls cost nothing to make.
+    /// Half-spaces have no bounds and no mass, and thin shapes no interior; only hulls cost anything to build.
     const fn suits(self, kind: Kind) -> bool {
         match self {
             Self::Ray => !matches!(kind, Kind::Segment),
@@ -208,10 +208,10 @@ pub fn name(case: &Case) -> String {
     }
 }
 
-/// Measures one row. Cost: some tenths of a second a variant.
+/// Measures one row. Cost: some tenths of a second per variant.
 ///
 /// # Errors
-/// What refuses to be made, on either side.
+/// A shape that either side rejects.
 ///
 /// ```
 /// use asunder_benches::shapes::{self, Alone, Case, Kind, Question};
@@ -224,7 +224,7 @@ pub fn name(case: &Case) -> String {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn measure(case: &Case, effort: &Effort, judge: &mut Judge) -> Result<Row, Box<dyn Error>> {
-    // Rows are many, and steady: a third of the time that others have.
+    // There are many rows, and they are steady: a third of the usual time is enough.
     let effort = Effort { seconds: effort.seconds / 3.0, ..*effort };
     match *case {
         Case::Pair(a, b, question) => {
@@ -236,7 +236,7 @@ pub fn measure(case: &Case, effort: &Effort, judge: &mut Judge) -> Result<Row, B
     }
 }
 
-/// Pairs of two kinds in random poses, their middles as far apart as both reach, at most; and which way the first lies.
+/// Pairs of two kinds in random poses, with centres at most as far apart as both reach; and the direction of the first.
 fn pairs(kinds: [Kind; 2]) -> Result<Vec<(PosedPair3, DVec3)>, Box<dyn Error>> {
     let mut random = Random::new(0x5a9e5);
     let mut pair = || {
@@ -282,7 +282,7 @@ fn of_pair(
     Ok(row)
 }
 
-/// The first shape moved from apart through the second, or past it.
+/// The first shape moves, from apart, through the second or past it.
 fn casts(pairs: &[(PosedPair3, DVec3)], effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
     const AWAY: f64 = 3.0;
     let mut random = Random::new(0xca57);

@@ -1,8 +1,8 @@
-//! Whole frames: from setting poses to having walked every contact point, beside the [`lean`](crate::lean) pipeline.
+//! Whole frames: from setting poses to visiting every contact point, beside the [`lean`](crate::lean) pipeline.
 //!
-//! Both sides keep contacts up to 2 cm apart. Rows that start with `plane/` are in the plane and have no peer. Rows
-//! that end with `/falling` play poses that the examples' stepper made at the start of the run: both sides play the
-//! same.
+//! Both sides keep contacts with gaps of up to 2 cm. Rows that start with `plane/` are in the plane and have no peer.
+//! Rows that end with `/falling` replay poses that the examples' stepper made at the start of the run, the same for
+//! both sides.
 
 pub(crate) mod play;
 pub mod rows;
@@ -24,17 +24,17 @@ pub use stages::{Figures, heading};
 use std::error::Error;
 use tally::Tally;
 
-/// Gap within which two bodies are a contact, in metres: half of it is each body's margin.
+/// The gap within which two bodies are a contact, in metres: half of it is each body's margin.
 pub(crate) const MARGIN: f32 = 0.02;
 
-/// One row: a world, and how it comes by its poses.
+/// One row: a world, and the source of its poses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Case {
     /// Simple motion in space.
     Volume(WorldScene),
     /// Simple motion in the plane.
     Plane(WorldScene),
-    /// Poses of a stepper, in space.
+    /// Poses recorded from a stepper, in space.
     Falling(Falling),
 }
 
@@ -53,7 +53,7 @@ impl Case {
         }
     }
 
-    /// Its bodies. Cost: for a heap that falls, all the steps that it takes.
+    /// Its bodies. Cost: for a heap that falls, stepping it.
     fn open(&self, count: usize) -> Result<Opened, Box<dyn Error>> {
         Ok(match self {
             Self::Volume(scene) => Opened::Volume(Replay3::new(*scene, count, 1)),
@@ -62,7 +62,7 @@ impl Case {
         })
     }
 
-    /// The frames of a fall are no more of the same: all are played, whatever they take.
+    /// The frames of a fall all differ: all of them are played, whatever time they take.
     fn effort(&self, effort: &Effort) -> Effort {
         let seconds = if matches!(self, Self::Falling(_)) { f64::INFINITY } else { effort.seconds };
         Effort { seconds, ..*effort }
@@ -110,13 +110,13 @@ pub fn name(case: &Case) -> String {
     }
 }
 
-/// Measures one row, on one thread. Cost: about a second a variant; of a heap that falls, all of the effort's frames,
-/// and some seconds for stepping it.
+/// Measures one row, on one thread. Cost: about a second per variant; for a heap that falls, all of the effort's
+/// frames, and some seconds for stepping it.
 ///
-/// Must run where the library finds no second thread, as in a pool of one: thread time would miss it.
+/// Must run where the library finds no second thread, as in a pool of one: thread time would miss the other.
 ///
 /// # Errors
-/// The margin, or a shape's mass, if the library came to refuse it.
+/// The library rejects the margin or a shape's mass, which it does not at present.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, world::{self, Case}};
@@ -163,7 +163,7 @@ fn measure_volume(mut replay: Replay3, effort: &Effort, mut row: Row) -> Result<
     Ok(row)
 }
 
-/// What our frames were made of, and what they found on average.
+/// Fills in the stages of our frames, and their average findings.
 fn told(row: &mut Row, stages: &Stages, found: &Tally) {
     let found = found.mean();
     row.world = Some(stages.figures(found.candidates, row.n));
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn both_sides_see_the_same_world() {
         for case in cases() {
-            // What falls is stepped first, which takes longer than all else here.
+            // A falling heap must be stepped first, which takes longer than all else here.
             let count = if matches!(case, Case::Falling(_)) { 305 } else { 1500 };
             let Opened::Volume(mut replay) = case.open(count).unwrap() else { continue };
             let (mut ours, mut peer) = (replay.ours().unwrap(), lean_of(&replay).unwrap());
@@ -222,7 +222,7 @@ mod tests {
                 let poses = replay.poses_at(frame * 7);
                 ours.frame(&poses);
                 peer_frame(&mut peer, &Replay3::converted(&poses));
-                // Boxes rounded outwards may meet where parry3d's do not, within a few of a thousand.
+                // Our boxes are rounded outwards and may overlap where parry3d's do not, in a few of a thousand pairs.
                 let (ours, peer) = (ours.stats().candidates as f64, peer.candidates() as f64);
                 assert!((ours - peer).abs() <= 2.0 + 0.003 * peer, "{}: {ours} and {peer}", name(&case));
             }
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn heaps_that_fall_are_rows_of_json_with_a_ratio_and_all_their_frames() {
-        // As short as a row can be, and yet all frames are played.
+        // As little time as possible; all frames are played nevertheless.
         let effort = Effort { seconds: 0.0, rounds: 5, ..Effort::quick() };
         for heap in Falling::ALL {
             let row = measure(&Case::Falling(heap), 130, &effort).unwrap();

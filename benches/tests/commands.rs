@@ -1,10 +1,10 @@
-//! What programs say of options that lead nowhere: they fail, and tell why.
+//! Programs reject wrong options: they fail, with a message that says why.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot start a program must stop")]
 
 use std::process::Command;
 
-/// What a program says on its way to failing.
+/// The message of a program that fails.
 fn complaint(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).output().unwrap();
     assert!(!output.status.success(), "{arguments:?} is taken");

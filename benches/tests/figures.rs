@@ -1,4 +1,4 @@
-//! README's figures are drawn from `benches/results` and from nothing else: drawn again, they are the same bytes.
+//! README's figures are drawn from `benches/results` alone: drawn again, they are the same bytes.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that cannot read must stop")]
 
@@ -12,7 +12,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
 
-/// README, the folder that it says it is drawn from, and what lies there.
+/// README, the folder of data that it names, and the data.
 fn read() -> (String, String, Data) {
     let page = std::fs::read_to_string(root().join("README.md")).unwrap();
     let folder =

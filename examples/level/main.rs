@@ -1,6 +1,6 @@
 //! Reads a level from a Wavefront OBJ file and drops things onto it: `cargo run --release --example level`.
 //!
-//! The level is one `TriMesh`, of one fixed body. Things roll and slide over its triangles as if there were no seams.
+//! The level is one `TriMesh`, in one fixed body. Things roll and slide over its triangles as if there were no seams.
 
 mod obj;
 
@@ -17,11 +17,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 const SEED: u64 = 20_261;
-/// Shapes are shared: so many different ones.
+/// The number of different shapes; bodies share them.
 const VARIANTS: usize = 96;
 /// Metres between things before they fall.
 const SPACING: f64 = 1.1;
-/// The file that is played if none is named.
+/// The file that is used if none is given.
 const VILLAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/levels/village.obj");
 
 /// Drops things onto a level that is read from a Wavefront OBJ file, then prints what each stage cost.
@@ -76,7 +76,7 @@ fn play(options: &Options) -> Result<(), Box<dyn Error>> {
     game.add(Collider3::new(floor.clone()).fixed(), DVec3::ZERO, DVec3::ZERO)?;
     drop_things(&mut game, &floor, options.bodies as usize)?;
     let Ok(times) = report::timed(&mut game, options.steps, |_| Ok::<(), Infallible>(()));
-    // Who has fallen off or through it is not far enough yet to have left.
+    // Bodies that fell off the level or through it may not be far enough yet to count as having left.
     report::print(&game, "level", &times, game.outside(above(&floor)));
     picture::save(&options.svg, &picture::volume::draw(&game.stepper.world))
 }
@@ -86,13 +86,13 @@ fn mesh_of(soup: obj::Soup, is_one_sided: bool) -> Result<TriMesh, MeshError> {
     Ok(if is_one_sided { mesh.one_sided() } else { mesh })
 }
 
-/// The level's own box, open at the top.
+/// The level's own bounding box, open at the top.
 fn above(floor: &Shape3) -> (DVec3, DVec3) {
     let bounds = floor.bounds(&Pose3::IDENTITY, 0.0);
     (bounds.min.as_dvec3(), DVec3 { y: f64::INFINITY, ..bounds.max.as_dvec3() })
 }
 
-/// Puts things in layers above the middle of the level, two thirds of it each way.
+/// Puts things in layers above the middle two thirds of the level, each way.
 fn drop_things(game: &mut Game<Volume>, floor: &Shape3, count: usize) -> Result<(), Box<dyn Error>> {
     let mut random = Random::new(SEED);
     let shapes: Vec<Shape3> =
@@ -102,7 +102,7 @@ fn drop_things(game: &mut Game<Volume>, floor: &Shape3, count: usize) -> Result<
     let (middle, reach) = ((low + high) / 2.0, (high - low) / 3.0);
     let across = |reach: f64| (2.0 * reach / SPACING).floor().max(1.0);
     let (columns, rows) = (across(reach.x) as usize, across(reach.z) as usize);
-    // Each layer has a third of its places taken, so that what falls spreads.
+    // Only a third of the places in each layer is taken, so that the things spread as they fall.
     let places = 3 * count;
     let mut free: Vec<usize> = (0..places).collect();
     for number in 0..count {

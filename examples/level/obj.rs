@@ -3,7 +3,7 @@
 use asunder::glam::Vec3;
 use std::path::Path;
 
-/// Triangles without an order, as files have them.
+/// Triangles without connectivity, as the file has them.
 pub(crate) struct Soup {
     pub(crate) vertices: Vec<Vec3>,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -29,7 +29,7 @@ impl std::fmt::Display for ObjError {
 
 impl std::error::Error for ObjError {}
 
-/// Reads all objects of a file. Faces of more than three corners become fans; materials are not looked at.
+/// Reads all objects of a file. Faces of more than three corners become fans; materials are ignored.
 pub(crate) fn read(file: &Path) -> Result<Soup, ObjError> {
     let options = tobj::LoadOptions {
         triangulate: true,

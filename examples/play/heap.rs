@@ -7,11 +7,11 @@ use asunder_scenes::level::{Level3, LevelBody3};
 use asunder_scenes::random::Random;
 use std::error::Error;
 
-/// Metres between neighbours in the tower: no two bodies of it touch.
+/// Metres between neighbours in the tower, so that no two bodies touch at first.
 const SPACING: f64 = 1.05;
 /// Half of the kerb's height and width, in metres.
 const KERB: f64 = 0.2;
-/// Shapes are shared: as many bodies are crates as rocks, prisms, balls, capsules and hammers.
+/// The number of different shapes, the same of each of the six kinds; bodies share them.
 const VARIANTS: usize = 96;
 
 /// A floor with a kerb, and bodies in a tower about four times as tall as it is wide.
@@ -32,7 +32,7 @@ pub(crate) fn heap(count: usize, seed: u64) -> Result<Level3, Box<dyn Error>> {
     Ok(Level3 { name: "heap".to_owned(), gravity: DVec3::new(0.0, -9.81, 0.0), bodies })
 }
 
-/// A floor with its top at zero, and a kerb around it that keeps what rolls.
+/// A floor with its top at zero, and a kerb around it that keeps bodies from rolling off.
 fn tray(reach: f64) -> Result<Vec<LevelBody3>, Box<dyn Error>> {
     let slab = |x: f64, y: f64, z: f64| Cuboid::from_half_extents(DVec3::new(x, y, z).as_vec3());
     let floor = slab(reach + 2.0 * KERB, 1.0, reach + 2.0 * KERB)?;

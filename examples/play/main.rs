@@ -1,8 +1,8 @@
-//! Plays a scene and says what it cost: `cargo run --release --example play -- --help`.
+//! Plays a scene and prints what it cost: `cargo run --release --example play -- --help`.
 //!
-//! The engine answers what touches; the stepper around it (`asunder_examples::stepper`) gives bodies mass and lets
-//! contacts push them apart; `asunder_examples::game` drives, counts and lets bullets fly. The default scene drops
-//! crates, rocks, prisms, balls, capsules and hammers on a floor. Named scenes are described in
+//! The engine finds what touches. The stepper around it (`asunder_examples::stepper`) gives bodies mass and lets
+//! contacts push them apart; `asunder_examples::game` drives bodies, counts events and handles bullets. The default
+//! scene drops crates, rocks, prisms, balls, capsules and hammers on a floor. Named scenes are described in
 //! `asunder_scenes::stages`, scene files in `asunder_scenes::level`, recordings in `asunder_examples::recording`.
 
 mod heap;
@@ -22,10 +22,10 @@ use std::io::{BufReader, BufWriter};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// What the default scene is called.
+/// The name of the default scene.
 const HEAP: &str = "heap";
 const HEAP_SIZE: u32 = 2000;
-/// The most bodies that a named scene is asked for.
+/// The most bodies that a named scene may be asked for.
 const MAX_SIZE: u32 = 2_000_000;
 
 /// Steps a scene with the asunder collision engine, then prints what each stage cost and what touches.

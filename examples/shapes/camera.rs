@@ -2,7 +2,7 @@
 
 use asunder::glam::{DVec2, DVec3};
 
-/// A parallel projection onto the picture: the same for all, up to where it puts what is in the middle.
+/// A parallel projection onto the picture: all cameras share it and differ in scale and in where the origin is.
 #[derive(Clone, Copy)]
 pub(crate) struct Camera {
     right: DVec3,
@@ -10,7 +10,7 @@ pub(crate) struct Camera {
     toward_viewer: DVec3,
     /// Pixels a metre.
     pub scale: f64,
-    /// The pixel where the world's origin comes to stand.
+    /// The pixel of the world's origin.
     pub origin: DVec2,
 }
 
@@ -39,18 +39,18 @@ impl Camera {
         self.toward_viewer
     }
 
-    /// A point of the world on the picture.
+    /// Projects a point of the world onto the picture.
     pub(crate) fn place(&self, point: DVec3) -> DVec2 {
         self.origin + DVec2::new(point.dot(self.right), -point.dot(self.up)) * self.scale
     }
 
-    /// A direction of the world seen from the viewer: x right, y up, z towards him.
+    /// A direction of the world in the viewer's axes: x right, y up, z towards the viewer.
     pub(crate) fn turn(&self, direction: DVec3) -> DVec3 {
         DVec3::new(direction.dot(self.right), direction.dot(self.up), direction.dot(self.toward_viewer))
     }
 
-    /// The same camera, moved so that what it shows is centred on a point, and smaller if that does not fit the room
-    /// there. `frame` gives the rectangle of the picture around what a camera shows.
+    /// The same camera, moved so that what it shows is centred on a point, and scaled down if it does not fit the room
+    /// there. `frame` returns the picture's rectangle around what a given camera shows.
     pub(crate) fn fitted(self, room: DVec2, center: DVec2, frame: impl Fn(&Self) -> [DVec2; 2]) -> Self {
         let [low, high] = frame(&self);
         let camera = self.scaled(self.scale * (room / (high - low)).min_element().min(1.0));

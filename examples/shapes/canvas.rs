@@ -1,4 +1,4 @@
-//! An SVG in the making.
+//! An SVG being drawn.
 
 use crate::tint::{Color, INK, LIGHT, PAPER, REACH, Tint, WHITE, hex};
 use asunder::glam::DVec2;
@@ -14,7 +14,7 @@ pub(crate) struct Paint {
     more: &'static str,
 }
 
-/// Where a text stands on its point.
+/// Which part of a text is at its point.
 #[derive(Clone, Copy)]
 pub(crate) enum Anchor {
     Start,
@@ -22,9 +22,9 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// An SVG in the making. Points are in pixels, y down.
+/// An SVG being drawn. Points are in pixels, y down.
 pub(crate) struct Canvas {
-    /// Goes before every id: several pictures may stand in one page.
+    /// The prefix of every id, since one page may hold several pictures.
     name: &'static str,
     size: DVec2,
     gradients: BTreeMap<String, String>,
@@ -36,12 +36,12 @@ impl Paint {
         Self::of(hex(color))
     }
 
-    /// An area in one colour, with a thin line of the same around it: no paper shows between neighbours.
+    /// An area in one colour, with a thin line of the same colour around it, so that no paper shows between neighbours.
     pub(crate) fn solid(color: Color) -> Self {
         Self::of(hex(color)).edged(color, 0.6)
     }
 
-    /// An area painted with a gradient, and the line around it too.
+    /// An area painted with a gradient, as is the line around it.
     pub(crate) fn gradient(id: &str) -> Self {
         let fill = format!("url(#{id})");
         Self { stroke: Some((fill.clone(), 0.6)), ..Self::of(fill) }
@@ -91,7 +91,7 @@ impl Paint {
     }
 }
 
-// Writing to a string cannot fail: what `write!` returns is of no interest here.
+// Writing to a string cannot fail: the result of `write!` can be ignored.
 impl Canvas {
     pub(crate) fn new(name: &'static str, size: DVec2) -> Self {
         Self { name, size, gradients: BTreeMap::new(), elements: String::new() }
@@ -139,7 +139,7 @@ impl Canvas {
         );
     }
 
-    /// What is drawn until [`Canvas::end`] is one sheet, seen through.
+    /// Everything drawn until [`Canvas::end`] is one group with this opacity.
     pub(crate) fn begin(&mut self, opacity: f64) {
         let _ = writeln!(self.elements, "<g opacity=\"{}\">", short(opacity, 2));
     }
@@ -148,7 +148,7 @@ impl Canvas {
         self.elements.push_str("</g>\n");
     }
 
-    /// A patch of a ball about `center`: its outline is relative to that.
+    /// A patch of a ball about `center`, with an outline relative to that.
     pub(crate) fn ball(&mut self, center: DVec2, radius: f64, patch: Option<&[DVec2]>, tint: &Tint) {
         let key = format!("{}{}", tint.name, short(radius, 2).replace('.', "-"));
         let id = format!("{}-{key}", self.name);
@@ -176,7 +176,7 @@ impl Canvas {
         };
     }
 
-    /// A gradient between two points: (where from 0 to 1, colour, opacity). Returns its id.
+    /// A linear gradient between two points: (position from 0 to 1, colour, opacity) each. Returns its id.
     pub(crate) fn fade(&mut self, from: DVec2, to: DVec2, stops: &[(f64, Color, f64)]) -> String {
         let id = format!("{}-{}", self.name, self.gradients.len());
         let [x1, y1, x2, y2] = [from.x, from.y, to.x, to.y].map(|v| short(v, 1));
@@ -188,7 +188,8 @@ impl Canvas {
         id
     }
 
-    /// The file: without empty lines and with its first tag on a line of its own, so that Markdown leaves it alone.
+    /// The text of the file: without empty lines and with its first tag on a line of its own, so that Markdown leaves
+    /// it alone.
     pub(crate) fn finish(self, label: &str) -> String {
         let gradients: String = self.gradients.into_values().map(|gradient| gradient + "\n").collect();
         let DVec2 { x, y } = self.size;
@@ -203,7 +204,7 @@ impl Canvas {
         )
     }
 
-    /// An arrow from one point to another, with a light border so that it stands out from what is below it.
+    /// An arrow from one point to another, with a light border so that it stands out against what lies below it.
     pub(crate) fn arrow(&mut self, from: DVec2, to: DVec2, color: Color) {
         let Some(along) = (to - from).try_normalize() else { return };
         let (neck, side) = (to - along * 6.5, along.perp() * 3.2);
@@ -213,12 +214,12 @@ impl Canvas {
         self.polygon(&[to, neck + side, neck - side], &Paint::fill(color));
     }
 
-    /// A contact point or vertex.
+    /// A mark for a contact point or vertex.
     pub(crate) fn point(&mut self, at: DVec2, radius: f64, color: Color) {
         self.dot(at, radius, &Paint::fill(color).edged(WHITE, 1.0));
     }
 
-    /// A text in the usual ink.
+    /// A text in the usual ink, centred.
     pub(crate) fn caption(&mut self, at: DVec2, text: &str, size: f64) {
         self.text(at, text, (size, INK, Anchor::Middle));
     }
@@ -240,7 +241,7 @@ fn outline(points: &[DVec2]) -> String {
     data
 }
 
-/// A number with at most so many digits after the point, and none that say nothing.
+/// A number with at most so many digits after the point, without trailing zeros.
 pub(crate) fn short(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

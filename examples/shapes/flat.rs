@@ -10,11 +10,11 @@ use core::fmt::Write;
 /// Half the width and the depth, in metres, of the piece of a half-plane that is shown.
 const STRIP: [f64; 2] = [0.80, 0.40];
 
-/// A convex shape as the viewer sees it.
+/// A convex shape, projected for the viewer.
 pub(crate) struct Flat<'a> {
     shape: &'a Shape2,
     tint: &'a Tint,
-    /// On the picture.
+    /// In the picture's pixels.
     vertices: Vec<DVec2>,
     /// Of the edges, on the picture.
     normals: Vec<DVec2>,
@@ -23,7 +23,7 @@ pub(crate) struct Flat<'a> {
 }
 
 impl<'a> Flat<'a> {
-    /// The shape must be convex; of a half-plane, a strip is shown.
+    /// The shape must be convex; a half-plane is shown as a strip.
     pub(crate) fn new(shape: &'a Shape2, pose: &Pose2, tint: &'a Tint, camera: &'a Camera) -> Self {
         let core = shape.core();
         let places: Vec<DVec2> = match shape {
@@ -48,7 +48,7 @@ impl<'a> Flat<'a> {
         }
     }
 
-    /// The corners of a rectangle of the picture around it.
+    /// The corners of the picture's rectangle around it.
     pub(crate) fn frame(&self) -> [DVec2; 2] {
         let around =
             |(low, high): (DVec2, DVec2), &v: &DVec2| (low.min(v - self.radius), high.max(v + self.radius));
@@ -89,7 +89,7 @@ impl<'a> Flat<'a> {
         }
     }
 
-    /// Edges moved out by the radius, and an arc about each vertex.
+    /// The edges moved out by the radius, and an arc about each vertex.
     fn outline(&self) -> String {
         let mut data = String::new();
         let (count, r) = (self.vertices.len(), short(self.radius, 1));

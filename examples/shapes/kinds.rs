@@ -7,7 +7,7 @@ use asunder::{
 };
 use std::error::Error;
 
-/// A shape with the name that pictures and tables give it.
+/// A shape, and its name in pictures and tables.
 pub(crate) struct Kind<S> {
     pub name: &'static str,
     pub shape: S,
@@ -15,7 +15,7 @@ pub(crate) struct Kind<S> {
 
 type Kinds<S> = Result<Vec<Kind<S>>, Box<dyn Error>>;
 
-/// Shapes in space: those that others lie on well come first.
+/// Shapes in space: those that are good to lie on come first.
 pub(crate) fn solids() -> Kinds<Shape3> {
     Ok(vec![
         kind("half-space", HalfSpace::new(Vec3::Y)?),
@@ -95,7 +95,7 @@ pub(crate) fn hills() -> Result<HeightField, Box<dyn Error>> {
     Ok(HeightField::new(8, 7, heights, Vec2::new(0.17, 0.15))?.with_holes([(5, 1)])?)
 }
 
-/// Two posts on a beam: not convex, so it may touch at several places with several normals.
+/// Two posts on a beam: not convex, so it may touch in several places with several normals.
 pub(crate) fn arch3() -> Result<Compound3, Box<dyn Error>> {
     let beam = Cuboid::from_half_extents(Vec3::new(0.58, 0.10, 0.24))?;
     let post = Cuboid::from_half_extents(Vec3::new(0.11, 0.155, 0.24))?;

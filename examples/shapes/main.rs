@@ -1,9 +1,9 @@
 //! Draws every shape in contact with every other: `cargo run --release --example shapes`.
 //!
-//! The second body of a pair is lowered on the first until they overlap by a few centimetres; the engine says how
-//! they touch. Then each contact point is held against both surfaces, and a point that is on none of them, or none at
-//! all where bodies touch, ends the program with an error. `--docs` also draws the small pictures of the shapes'
-//! documentation.
+//! The second body of a pair is lowered on the first until they overlap by a few centimetres, and the engine finds
+//! their contact points. Each of these is then checked against both surfaces: a point that is off a surface, or no
+//! point at all where bodies touch, ends the program with an error. `--docs` also draws the small pictures for the
+//! documentation of the shapes.
 
 mod camera;
 mod canvas;
@@ -39,7 +39,7 @@ struct Options {
     docs: Option<PathBuf>,
 }
 
-/// How B lies on A: a row for each A in the order of [`kinds::solids`], from the same shape on.
+/// How B lies on A: a row for each A in the order of [`kinds::solids`], which begins with A itself.
 const ATTITUDES3: [&[Attitude]; 10] = [
     &[Over, Over, Flat, Flat, Edge, Flat, Flat, Flat, Flat, Flat],
     &[Over, Edge, Edge, Vertex, Edge, Flat, Flat, Flat, Edge],
@@ -96,7 +96,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Each kind with itself and those after it.
+/// Each kind with itself and all later kinds.
 fn all_pairs<'a, S, P>(
     kinds: &'a [Kind<S>],
     attitudes: &[&[Attitude]],
@@ -109,7 +109,7 @@ fn all_pairs<'a, S, P>(
     rows.collect()
 }
 
-/// A line for each pair. Returns the first pair that is not as it should be, after all were listed.
+/// Prints a line for each pair. Returns the first pair that is not as it should be, after all are listed.
 fn print<S, P>(touches: &[Vec<Touch<'_, S, P>>]) -> Result<(), TouchError> {
     let mut result = Ok(());
     for touch in touches.iter().flatten() {

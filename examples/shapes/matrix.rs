@@ -1,6 +1,6 @@
-//! The one picture: every pair of shapes in contact.
+//! The one large picture: every pair of shapes in contact.
 //!
-//! Ten kinds in space make 55 pairs, nine in the plane 45: a triangle each, and together a square of ten by ten.
+//! Ten kinds in space make 55 pairs, nine in the plane 45: two triangles that together fill a square of ten by ten.
 
 use crate::camera::{Camera, joined};
 use crate::canvas::{Anchor, Canvas, Paint};
@@ -14,18 +14,18 @@ use asunder::glam::{DVec2, DVec3};
 /// Pixels from one cell to the next, and between cards.
 const CELL: f64 = 178.0;
 const GAP: f64 = 6.0;
-/// Left, top: where the first cell is.
+/// Left, top: the corner of the first cell.
 const CORNER: DVec2 = DVec2::new(120.0, 128.0);
-/// How far the half in space stands aside, and the half in the plane below.
+/// By how much the half in space is moved right, and the half in the plane down.
 const ASIDE: f64 = 16.0;
 const APART: f64 = 22.0;
 /// Pixels a metre, unless a pair is too large for its card.
 const SCALE: f64 = 98.0;
-/// Pixels that a pair may take.
+/// Pixels that a pair may fill.
 const ROOM: DVec2 = DVec2::splat(CELL - GAP - 12.0);
 /// Length of a normal, in metres.
 const ARROW: f64 = 0.34;
-/// Cards of the plane's half.
+/// Background of the cards in the plane's half.
 const CARD2: Color = DVec3::new(0.985, 0.982, 0.965);
 
 pub(crate) fn draw(solids: &[Vec<Touch3<'_>>], flats: &[Vec<Touch2<'_>>]) -> String {
@@ -77,7 +77,7 @@ fn draw_flats(canvas: &mut Canvas, flats: &[Vec<Touch2<'_>>]) {
     }
 }
 
-/// What the picture shows, and what its marks mean.
+/// The title, and a key to the marks.
 fn draw_title(canvas: &mut Canvas, size: DVec2) {
     let left = CORNER.x + ASIDE;
     canvas.text(DVec2::new(left, 50.0), "Every shape against every other", (28.0, INK, Anchor::Start));
@@ -103,7 +103,7 @@ fn draw_title(canvas: &mut Canvas, size: DVec2) {
     }
 }
 
-/// A caption of one or two words, one below the other.
+/// A caption of one word, or of two in two lines.
 fn caption(canvas: &mut Canvas, at: DVec2, name: &str, anchor: Anchor) {
     match (name.split_once(' '), anchor) {
         (Some((first, second)), Anchor::Start | Anchor::End) => {
@@ -123,7 +123,7 @@ fn draw_cell3(canvas: &mut Canvas, touch: &Touch3<'_>, middle: DVec2) {
         joined(bodies.iter().map(|body| Solid::new(body.shape, &body.pose, tint(body.is_b), camera).frame()))
     });
     for body in &bodies {
-        // What is in front lets through what it stands on.
+        // B is translucent, to show what it lies on.
         canvas.begin(if body.is_b { 0.80 } else { 1.0 });
         Solid::new(body.shape, &body.pose, tint(body.is_b), &camera).draw(canvas);
         canvas.end();
@@ -148,7 +148,7 @@ fn tint(is_b: bool) -> &'static Tint {
     if is_b { &WARM } else { &COOL }
 }
 
-/// Normals, and over them the points on both surfaces.
+/// Draws normals, and over them the points on both surfaces.
 fn draw_marks(canvas: &mut Canvas, marks: &[Mark], camera: &Camera) {
     for mark in marks {
         let tip = mark.on_a + mark.normal * ARROW;

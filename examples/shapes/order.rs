@@ -1,4 +1,4 @@
-//! The convex parts of bodies, and which of them hide which.
+//! The convex parts of bodies, and the order in which they are drawn.
 
 use asunder::glam::DVec3;
 use asunder::{Ground, Pair3, Pose2, Pose3, Separation3, Shape2, Shape3};
@@ -12,7 +12,7 @@ pub(crate) struct Body<'a, S, P> {
 
 /// The parts, those furthest from the viewer first.
 ///
-/// The engine says which of two parts is nearer: the normal from one to the other either points towards the viewer or
+/// The engine says which of two parts is nearer: the normal from one to the other points either towards the viewer or
 /// away (Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972, with whole parts for faces).
 pub(crate) fn far_to_near<'a>(
     mut left: Vec<Body<'a, Shape3, Pose3>>,
@@ -20,7 +20,7 @@ pub(crate) fn far_to_near<'a>(
 ) -> Vec<Body<'a, Shape3, Pose3>> {
     let mut order = Vec::new();
     while !left.is_empty() {
-        // What hides nothing that is left; if the parts hide each other in a circle, just the first.
+        // A part that hides none of those left; if the parts hide each other in a cycle, the first.
         let hides_none =
             left.iter().position(|part| !left.iter().any(|other| hides(part, other, toward_viewer)));
         order.push(left.remove(hides_none.unwrap_or(0)));
@@ -42,7 +42,7 @@ fn hides(part: &Body<'_, Shape3, Pose3>, other: &Body<'_, Shape3, Pose3>, toward
 pub(crate) fn parts3<'a>(shape: &'a Shape3, pose: &Pose3, is_b: bool) -> Vec<Body<'a, Shape3, Pose3>> {
     let Shape3::Compound(compound) = shape else { return vec![Body { shape, pose: *pose, is_b }] };
     let parts = compound.parts().iter().filter_map(|part| {
-        // The parts of this example's compounds are not turned in them.
+        // The parts of this example's compounds are not rotated.
         let pose = Pose3::new(pose.transform(part.pose().position()), pose.rotation()).ok()?;
         Some(Body { shape: part.shape(), pose, is_b })
     });
@@ -59,13 +59,14 @@ pub(crate) fn parts2<'a>(shape: &'a Shape2, pose: &Pose2, is_b: bool) -> Vec<Bod
     parts.collect()
 }
 
-/// The triangles of ground; none, of anything else.
+/// The triangles of ground; no triangle for any other shape.
 pub(crate) fn triangles(shape: &Shape3) -> Vec<Shape3> {
     let Some(ground) = Ground::of(shape) else { return vec![] };
     (0..ground.triangle_count()).filter_map(|number| Some(ground.triangle(number)?.into())).collect()
 }
 
-/// Triangles by their middles, those furthest from the viewer first: neighbours in ground are of about one size.
+/// Sorts triangles by their centres, those furthest from the viewer first: good enough for ground, whose neighbouring
+/// triangles are about equal in size.
 pub(crate) fn far_to_near_triangles(mut triangles: Vec<Shape3>, toward_viewer: DVec3) -> Vec<Shape3> {
     let near = |triangle: &Shape3| triangle.center().as_dvec3().dot(toward_viewer);
     triangles.sort_by(|one, other| near(one).total_cmp(&near(other)));

@@ -1,4 +1,4 @@
-//! One small picture for the documentation of each shape: the sharp one, and beside it the rounded one.
+//! One small picture for the documentation of each shape: the sharp shape, and beside it the rounded one.
 
 use crate::camera::{Camera, joined};
 use crate::canvas::{Anchor, Canvas, Paint};
@@ -14,15 +14,15 @@ use asunder::{
 };
 use std::error::Error;
 
-/// Pixels of one card, and around it.
+/// The size of a card in pixels, and the gap around it.
 const CARD_SIZE: DVec2 = DVec2::new(220.0, 190.0);
 const GAP: f64 = 10.0;
-/// Pixels that a shape may take.
+/// Pixels that a shape may fill.
 const ROOM: DVec2 = DVec2::new(190.0, 150.0);
 /// Pixels a metre, unless the shape is too large for its card.
 const SCALE: f64 = 140.0;
 
-/// A picture: the file's name, and its shapes with what is written below them.
+/// A picture: the file's name, and its shapes with their captions.
 struct Page<S> {
     name: &'static str,
     shapes: Vec<(&'static str, S)>,
@@ -91,7 +91,7 @@ fn flat_pages() -> Result<Vec<Page<Shape2>>, Box<dyn Error>> {
     ])
 }
 
-/// Ground that looks up.
+/// A chain that faces up.
 fn hill() -> Result<Chain, ChainError> {
     let rise = [(0.5, -0.25), (0.28, -0.25), (0.1, -0.02), (-0.08, 0.06), (-0.26, 0.02), (-0.5, -0.2)];
     Ok(Chain::open(rise.map(|(x, y)| Vec2::new(x, y)))?.one_sided())
@@ -170,7 +170,7 @@ fn cards<S>(page: &Page<S>) -> Canvas {
     canvas
 }
 
-/// What a rounded shape is rounded about, on the picture.
+/// The core of a rounded shape, on the picture.
 struct Core {
     vertices: Vec<DVec2>,
     edges: Vec<(usize, usize)>,

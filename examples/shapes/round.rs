@@ -1,4 +1,4 @@
-//! Normals of round surfaces, seen from the viewer: x right, y up, z towards him.
+//! Normals of round surfaces in the viewer's axes: x right, y up, z towards the viewer.
 
 use asunder::glam::{DVec2, DVec3};
 use core::f64::consts::{PI, TAU};
@@ -14,7 +14,7 @@ pub(crate) fn facing(turn: f64) -> DVec2 {
     DVec2::new(cos, sin)
 }
 
-/// Unit normals from one to another the short way, without the last.
+/// Unit normals along the shorter arc from one to another, without the last.
 pub(crate) fn arc(from: DVec3, to: DVec3) -> impl Iterator<Item = DVec3> {
     let angle = libm::acos(from.dot(to).clamp(-1.0, 1.0));
     let aside = (to - from * from.dot(to)).normalize_or_zero();
@@ -24,7 +24,7 @@ pub(crate) fn arc(from: DVec3, to: DVec3) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Unit normals across an axis, counter-clockwise seen from where it points.
+/// Unit normals perpendicular to an axis, counter-clockwise as seen from its tip.
 pub(crate) fn ring(axis: DVec3) -> Vec<DVec3> {
     let aside = axis.any_orthonormal_vector();
     let other = axis.cross(aside);
@@ -35,8 +35,8 @@ pub(crate) fn ring(axis: DVec3) -> Vec<DVec3> {
     (0..TURN).map(at).collect()
 }
 
-/// The angles about an edge's axis between the normals of its two faces, as far as the viewer sees them: 0 and pi are
-/// the silhouettes, and pi/2 is nearest to him.
+/// The range of angles about an edge's axis, between the normals of its two faces, that the viewer sees: 0 and pi are
+/// the silhouettes, and pi/2 faces the viewer most directly.
 pub(crate) fn strip_range(axis: DVec3, sides: [DVec3; 2]) -> Option<[f64; 2]> {
     let [across, front] = around(axis)?;
     let [one, other] = sides.map(|side| libm::atan2(side.dot(front), side.dot(across)));
@@ -44,22 +44,22 @@ pub(crate) fn strip_range(axis: DVec3, sides: [DVec3; 2]) -> Option<[f64; 2]> {
     match (low >= 0.0, high >= 0.0) {
         (true, _) => Some([low, high]),
         (false, false) => None,
-        // The short way passes one silhouette or the other.
+        // The shorter arc passes one silhouette or the other.
         (false, true) if high - low < PI => Some([0.0, high]),
         (false, true) => Some([high, PI]),
     }
 }
 
-/// Two unit normals of a cylinder about an axis: at its silhouette, and nearest to the viewer. Nothing if he looks
-/// along it.
+/// Two unit normals of a cylinder about an axis: at its silhouette, and where it faces the viewer most directly. `None`
+/// if the viewer looks along the axis.
 pub(crate) fn around(axis: DVec3) -> Option<[DVec3; 2]> {
     let across = DVec3::new(-axis.y, axis.x, 0.0).try_normalize()?;
     let front = axis.cross(across);
     Some([across, if front.z < 0.0 { -front } else { front }])
 }
 
-/// The part that the viewer sees of a patch of the unit ball, from the normals around it, counter-clockwise seen from
-/// outside. Where the patch runs over the ball's silhouette the outline follows that.
+/// The visible part of a patch of the unit ball that is given by the normals around it, counter-clockwise as seen from
+/// outside. Where the patch crosses the ball's silhouette, the outline follows the silhouette.
 pub(crate) fn cap_outline(normals: &[DVec3]) -> Vec<DVec2> {
     let mut outline = Vec::new();
     let mut silhouette_from: Option<f64> = None;
@@ -85,7 +85,7 @@ pub(crate) fn cap_outline(normals: &[DVec3]) -> Vec<DVec2> {
             outline.push(crossing);
         }
     }
-    // The walk began out of sight: the silhouette that leads to the first entry closes the outline.
+    // The walk began on the hidden side: the silhouette up to the first entry closes the outline.
     if let (Some(from), Some((place, angle))) = (silhouette_from, first_entry) {
         let arc: Vec<DVec2> = silhouette(from, angle).collect();
         outline.splice(place..place, arc);
@@ -93,7 +93,7 @@ pub(crate) fn cap_outline(normals: &[DVec3]) -> Vec<DVec2> {
     outline
 }
 
-/// Points of the unit circle from one angle counter-clockwise to another, without both.
+/// Points of the unit circle from one angle counter-clockwise to another, without both ends.
 fn silhouette(from: f64, to: f64) -> impl Iterator<Item = DVec2> {
     let span = if to >= from { to - from } else { to - from + TAU };
     let count = (span / TAU * TURN as f64).ceil().max(1.0) as usize;

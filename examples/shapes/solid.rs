@@ -1,10 +1,10 @@
-//! Convex bodies in space, drawn by their features: faces, edges, vertices.
+//! Convex bodies in space, drawn feature by feature: faces, edges, vertices.
 //!
-//! A body with a radius is the hull of balls about its core's vertices. Its surface is flat over faces, a strip of a
-//! cylinder along edges and a patch of a ball at vertices. Under a parallel projection, and with a light that depends
-//! on a normal's place on the screen ([`Tint::shade`]), a strip is one linear gradient and a patch one round
-//! gradient: exact, with few elements. Seen from outside no two patches of a convex body hide each other, so their
-//! order does not matter.
+//! A body with a radius is the hull of balls about its core's vertices: its surface is flat over faces, a strip of a
+//! cylinder along edges, and a patch of a ball at vertices. Under a parallel projection, and with a light that depends
+//! only on the normal's place on the screen ([`Tint::shade`]), a strip is one linear gradient and a patch one radial
+//! gradient: exact, with few elements. No two visible patches of a convex body hide each other, so their order does not
+//! matter.
 
 use crate::camera::Camera;
 use crate::canvas::{Canvas, Paint};
@@ -18,22 +18,22 @@ const SLAB: [f64; 2] = [0.60, 0.24];
 /// Shades along a strip.
 const SHADES: usize = 6;
 
-/// A convex body as the viewer sees it.
+/// A convex body, projected for the viewer.
 pub(crate) struct Solid<'a> {
     shape: &'a Shape3,
     tint: &'a Tint,
-    /// On the picture.
+    /// On the picture, in pixels.
     vertices: Vec<DVec2>,
-    /// Seen from the viewer.
+    /// In the viewer's axes.
     corners: Vec<DVec3>,
-    /// Of the faces, seen from the viewer.
+    /// Of the faces, in the viewer's axes.
     normals: Vec<DVec3>,
     /// In pixels.
     radius: f64,
 }
 
 impl<'a> Solid<'a> {
-    /// The body must be convex; of a half-space, a slab is shown.
+    /// The body must be convex; a half-space is shown as a slab.
     pub(crate) fn new(shape: &'a Shape3, pose: &Pose3, tint: &'a Tint, camera: &'a Camera) -> Self {
         let (core, basis) = (shape.core(), pose.basis());
         let places: Vec<DVec3> = match shape {
@@ -50,7 +50,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// The corners of a rectangle of the picture around it.
+    /// The corners of the picture's rectangle around it.
     pub(crate) fn frame(&self) -> [DVec2; 2] {
         let around =
             |(low, high): (DVec2, DVec2), &v: &DVec2| (low.min(v - self.radius), high.max(v + self.radius));
@@ -115,7 +115,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// What shows through the joints of patches, and the outline.
+    /// The whole outline in one colour, which shows through the joints between patches.
     fn draw_below(&self, canvas: &mut Canvas) {
         let circle = |&center: &DVec2| {
             let count = if self.radius > 0.0 { 40 } else { 1 };
@@ -127,7 +127,7 @@ impl<'a> Solid<'a> {
         canvas.polygon(&outline, &Paint::fill(self.tint.base()).edged(self.tint.ink, 1.4));
     }
 
-    /// The sharp edges between faces that the viewer sees.
+    /// The sharp edges between two visible faces.
     fn draw_creases(&self, canvas: &mut Canvas, topology: &Topology) {
         for &edge in topology.edges() {
             let [left, right] = self.sides(topology, usize::from(edge));
@@ -146,14 +146,14 @@ impl<'a> Solid<'a> {
         [half, twin].map(|half| self.normals[usize::from(half.face)])
     }
 
-    /// Normals all along the edge of a vertex's patch, counter-clockwise seen from outside.
+    /// Normals around a vertex's patch, counter-clockwise as seen from outside.
     fn normals_about(&self, topology: &Topology, vertex: usize) -> Vec<DVec3> {
         let halves = topology.half_edges();
         let Some(first) = halves.iter().position(|half| usize::from(half.origin) == vertex) else {
             return Vec::new();
         };
         let mut faces = vec![self.normals[usize::from(halves[first].face)]];
-        // The next half-edge out of the vertex, clockwise: what follows the twin.
+        // The next half-edge out of the vertex, clockwise: the one after the twin.
         let mut half = usize::from(halves[usize::from(halves[first].twin)].next);
         while half != first && faces.len() < halves.len() {
             faces.push(self.normals[usize::from(halves[half].face)]);
@@ -180,7 +180,7 @@ impl<'a> Solid<'a> {
         }
     }
 
-    /// A strip of the cylinder about an edge, its normals between two angles about the axis: 0 and pi are its
+    /// A strip of the cylinder about an edge, with normals between two angles about the axis: 0 and pi are its
     /// silhouettes.
     fn draw_strip(&self, canvas: &mut Canvas, [from, to]: [DVec2; 2], axis: DVec3, [low, high]: [f64; 2]) {
         let Some([across, front]) = around(axis) else { return };
@@ -205,7 +205,7 @@ impl<'a> Solid<'a> {
         canvas.polygon(&outline, &Paint::gradient(&gradient));
     }
 
-    /// A piece of the plane with a grid on it, and below it some of the inside, which fades.
+    /// A piece of the plane with a grid on it, and some of the inside below it, which fades out.
     fn draw_slab(&self, canvas: &mut Canvas) {
         let ([a, b, c, d, e, f, g, h], [p, q, r, s, ..]) = (&self.vertices[..], &self.corners[..]) else {
             return;
@@ -238,8 +238,8 @@ impl<'a> Solid<'a> {
     }
 }
 
-/// The corners of the piece of a half-space that is shown: four on its plane, counter-clockwise from outside, and
-/// below each another.
+/// The corners of the piece of a half-space that is shown: four on its plane, counter-clockwise as seen from outside,
+/// and one below each.
 fn slab(half_space: &HalfSpace) -> [DVec3; 8] {
     let normal = half_space.unit_normal();
     let aside = if normal.x.abs() < 0.5 { DVec3::X } else { DVec3::Z };

@@ -1,4 +1,4 @@
-//! How far a point is from a shape's surface, by plain definition: nothing here asks the engine's kernels.
+//! The distance from a point to a shape's surface, by the plain definition: independent of the engine's kernels.
 
 use asunder::glam::{DVec2, DVec3};
 use asunder::{Shape2, Shape3};
@@ -23,13 +23,13 @@ pub(crate) fn from_surface2(shape: &Shape2, part: u32, point: DVec2) -> f64 {
             .parts()
             .get(part as usize)
             .map_or(f64::INFINITY, |part| from_surface2(part.shape(), 0, part.pose().transform_back(point))),
-        // No attitude lays anything on ground: it is drawn alone.
+        // No pair has ground in it: ground is drawn alone.
         Shape2::Chain(_) => f64::INFINITY,
         _ => (above_core2(shape, point) - f64::from(shape.radius())).abs(),
     }
 }
 
-/// The distance from a core, negative inside.
+/// The signed distance from a core, negative inside.
 fn above_core3(shape: &Shape3, point: DVec3) -> f64 {
     let core = shape.core();
     let (vertices, topology) = (core.vertices(), core.topology());
@@ -47,7 +47,7 @@ fn above_core3(shape: &Shape3, point: DVec3) -> f64 {
         let (from, to) = topology.ends(usize::from(edge));
         from_segment(point, vertex(from), vertex(to))
     });
-    // Above a face's inside its plane is nearest, else an edge or vertex is.
+    // Above the interior of a face the nearest point is on its plane; elsewhere it is on an edge or vertex.
     let faces = core.normals().iter().enumerate().filter_map(|(face, normal)| {
         let is_inside = topology.face_half_edges(face).all(|half_edge| {
             let (from, to) = topology.ends(half_edge);
@@ -60,7 +60,7 @@ fn above_core3(shape: &Shape3, point: DVec3) -> f64 {
     edges.chain(faces).chain(corners).fold(f64::INFINITY, f64::min)
 }
 
-/// The distance from a core, negative inside.
+/// The signed distance from a core, negative inside.
 fn above_core2(shape: &Shape2, point: DVec2) -> f64 {
     let core = shape.core();
     let (vertices, count) = (core.vertices(), core.vertices().len());

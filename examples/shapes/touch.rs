@@ -1,4 +1,4 @@
-//! Two shapes brought into contact, and what the engine says of it.
+//! Brings two shapes into contact, and asks the engine for their contact points.
 
 use crate::kinds::Kind;
 use crate::surface::{from_surface2, from_surface3};
@@ -6,11 +6,12 @@ use asunder::glam::{DVec2, DVec3, Quat};
 use asunder::{Pair2, Pair3, Pose2, Pose3, PoseError, Rotation2, Separation2, Separation3, Shape2, Shape3};
 use core::fmt;
 
-/// How deep the bodies are brought into each other, in metres: enough to see.
+/// How deep the bodies overlap once lowered, in metres: enough to see.
 const DEPTH: f64 = 0.05;
-/// How near bodies count as touching where no way down makes them overlap, in metres: two segments in space only cross.
+/// The margin, in metres, for pairs that touch but never overlap, such as two segments in space, which can only cross.
 const MARGIN: f32 = 2e-3;
-/// How far a contact point may be from a surface, in metres: far above the engine's own error, far below a pixel.
+/// The greatest distance of a contact point from a surface, in metres: far above the engine's own error, far below a
+/// pixel.
 const ON_SURFACE: f64 = 1e-4;
 
 /// One contact point.
@@ -27,10 +28,10 @@ pub(crate) struct Touch<'a, S, P> {
     pub b: &'a Kind<S>,
     pub pose_a: P,
     pub pose_b: P,
-    /// In metres, as the engine says.
+    /// In metres, as the engine reports it.
     pub separation: f32,
     pub marks: Vec<Mark>,
-    /// The furthest that a contact point is from the surface it should be on, in metres.
+    /// The greatest distance of a contact point from the surface it should be on, in metres.
     pub off: f64,
 }
 
@@ -40,7 +41,7 @@ pub(crate) type Touch3<'a> = Touch<'a, Shape3, Pose3>;
 /// How B is turned before it is lowered.
 #[derive(Clone, Copy)]
 pub(crate) enum Attitude {
-    /// As modelled: most lie on a face or side.
+    /// As modelled: most shapes lie on a face or side.
     Flat,
     /// As modelled, across A.
     Across,
@@ -52,16 +53,16 @@ pub(crate) enum Attitude {
     Over,
 }
 
-/// What is wrong with a pair.
+/// What is wrong with a pair of shapes.
 #[derive(Debug)]
 pub(crate) enum TouchError {
-    /// The pose that was found is none.
+    /// The pose that was found is not valid.
     Pose(PoseError),
     /// B was lowered past A, and they never met.
     NeverMet { a: &'static str, b: &'static str },
     /// They overlap, and the engine gives no contact point.
     NoPoint { a: &'static str, b: &'static str },
-    /// A contact point is not where the surfaces are.
+    /// A contact point is not on a surface.
     OffSurface { a: &'static str, b: &'static str, distance: f64 },
 }
 
@@ -87,8 +88,8 @@ impl From<PoseError> for TouchError {
 }
 
 impl<S, P> Touch<'_, S, P> {
-    /// Whether the points are as they should be. Two half-spaces overlap without end, and have points only where they
-    /// look exactly away from each other.
+    /// Whether the points are as they should be. Two half-spaces overlap without bounds, and have contact points only
+    /// if they face exactly away from each other.
     pub(crate) fn check(&self) -> Result<(), TouchError> {
         let (a, b) = (self.a.name, self.b.name);
         let is_endless = a == b && a.starts_with("half-");
@@ -102,7 +103,7 @@ impl<S, P> Touch<'_, S, P> {
     }
 }
 
-/// Lowers a posed B on A in space.
+/// Lowers B on A in space, in the given attitude.
 pub(crate) fn touch3<'a>(
     a: &'a Kind<Shape3>,
     b: &'a Kind<Shape3>,
@@ -137,7 +138,7 @@ pub(crate) fn touch3<'a>(
     Ok(touch)
 }
 
-/// Lowers a posed B on A in the plane.
+/// Lowers B on A in the plane, in the given attitude.
 pub(crate) fn touch2<'a>(
     a: &'a Kind<Shape2>,
     b: &'a Kind<Shape2>,
@@ -178,11 +179,12 @@ pub(crate) fn touch2<'a>(
     Ok(touch)
 }
 
-/// Where B overlaps A by [`DEPTH`], or touches it, when it is lowered from above a place; `answer` gives the
+/// The place where B, lowered from `start`, overlaps A by [`DEPTH`] or, if it cannot, touches it; `answer` gives the
 /// separation and normal for a place of B.
 ///
-/// A gap may safely be walked at once. From the first touch on, the steps are small: deep down, the shortest way out
-/// may be another one. If B may slide, it goes where the normal pushes it, until it is pushed up or back.
+/// While there is a gap, B can safely be lowered by all of it. After the first touch the steps are small, since deep
+/// down the shortest way out may point elsewhere. If B may slide, it follows the normal sideways until that points up
+/// or back.
 fn lowered(start: DVec3, may_slide: bool, answer: impl Fn(DVec3) -> Option<(f64, DVec3)>) -> Option<DVec3> {
     let mut touching = first_touch(start, &answer)?;
     let (mut stride, mut last) = (0.10, DVec3::ZERO);
@@ -225,7 +227,7 @@ fn first_touch(start: DVec3, answer: &impl Fn(DVec3) -> Option<(f64, DVec3)>) ->
     None
 }
 
-/// The middle of what of a shape reaches furthest in a direction of the world: a vertex, an edge's middle, a face's.
+/// The middle of the supporting feature in a direction of the world: a vertex, or the middle of an edge or face.
 fn end3(shape: &Shape3, pose: &Pose3, along: DVec3) -> DVec3 {
     let aside = [DVec3::X, DVec3::NEG_X, DVec3::Z, DVec3::NEG_Z];
     let diagonal = aside.map(|side| side + DVec3::new(-side.z, 0.0, side.x));
@@ -266,7 +268,7 @@ fn turned([yaw, pitch, roll]: [f64; 3]) -> Quat {
         cy * cx * sz - sy * sx * cz,
         cy * cx * cz + sy * sx * sz,
     );
-    // A half turn is meant exactly: two half-spaces then look exactly away from each other.
+    // Half turns must be exact: two half-spaces then face exactly away from each other.
     let [x, y, z, w] = [x, y, z, w].map(|c| if c.abs() < 1e-12 { 0.0 } else { c as f32 });
     Quat::from_xyzw(x, y, z, w)
 }

@@ -1,4 +1,4 @@
-//! Heaps that fall into a pit, stepped once and kept as poses: whoever measures collision alone plays them again.
+//! Heaps that fall into a pit, stepped once and kept as poses, so that benchmarks of collision alone can replay them.
 
 use crate::game::Game;
 use crate::opened::volume;
@@ -9,13 +9,14 @@ use asunder_scenes::stages::Falling;
 use asunder_scenes::worlds::{Body3, Replay3};
 use std::error::Error;
 
-/// Frames that are kept, after the one at which the recording begins.
+/// Frames that are kept after the one at which the recording begins.
 pub const FRAMES: u32 = 60;
 
-/// Steps a heap until enough of it has arrived, and keeps where every body is at the next [`FRAMES`] frames and before
-/// them. Equal arguments give equal bits, on any number of threads. Nothing sleeps: all bodies move in every frame.
+/// Steps a heap until enough of it has fallen into the pit, then records every body's pose there and in the next
+/// [`FRAMES`] frames. Equal arguments give equal bits, on any number of threads. Nothing sleeps: all bodies move in
+/// every frame.
 ///
-/// Cost: what 85 steps take, four seconds of the usual 8,005 boxes.
+/// Cost: that of 85 steps, four seconds for the usual 8,005 boxes.
 ///
 /// # Errors
 /// A body without mass, which no such scene has.
@@ -49,7 +50,7 @@ pub fn recorded(falling: Falling, count: usize, seed: u64) -> Result<Replay3, Bo
     Ok(Replay3::recorded(bodies, frames))
 }
 
-/// A body as it is now; nothing of one that has left the level, as none does from within a pit.
+/// A body as it is now; `None` for one that has left the level, which no body in a pit does.
 fn seen(game: &Game<Volume>, number: usize, body: &LevelBody3) -> Option<Body3> {
     let pose = *collider(game, number)?.pose();
     let (shape, fixed, sensor) = (body.shape.clone(), body.fixed, body.sensor);
@@ -57,7 +58,7 @@ fn seen(game: &Game<Volume>, number: usize, body: &LevelBody3) -> Option<Body3> 
     Some(Body3 { shape, pose, velocity, fixed, sensor, owner: None })
 }
 
-/// Of all that is not fixed.
+/// The poses of all bodies that are not fixed.
 fn poses(game: &Game<Volume>) -> Vec<Pose3> {
     let bodies = (0..game.len()).filter_map(|number| collider(game, number));
     bodies.filter(|body| !body.is_fixed()).map(|body| *body.pose()).collect()

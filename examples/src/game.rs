@@ -1,4 +1,4 @@
-//! The game on the stepper: bodies that follow paths, bodies that leave the level, bullets, and counts of all of it.
+//! A game on the stepper: bodies that follow paths, bodies that leave the level, bullets, and counts of all of these.
 
 mod flights;
 mod tally;
@@ -9,8 +9,8 @@ use asunder::glam::{DQuat, DVec3};
 use asunder::{AnyWorld, Collider, Event};
 use flights::Flights;
 
-/// Makes this thread one of those that share the work of updates, as the guide's page on game loops says; where there
-/// is a pool already, nothing changes.
+/// Makes this thread one of rayon's global pool, so that it shares the work of updates (see the guide's page on game
+/// loops). Does nothing if there is a pool already.
 ///
 /// ```
 /// asunder_examples::game::share_work();
@@ -24,10 +24,10 @@ pub fn share_work() {
 /// A body this far from where it started, in metres, has left the level.
 const LEFT: f64 = 1000.0;
 
-/// After so many seconds a scene is taken to have settled.
+/// After this many seconds a scene is taken to have settled.
 const SETTLED: f64 = 2.0;
 
-/// Bodies by number, as in the stepper, with what a game adds to them.
+/// The bodies of a stepper, by the same numbers, and what a game adds to them.
 pub struct Game<S: Playable> {
     /// What moves the bodies.
     pub stepper: Stepper<S>,
@@ -36,22 +36,22 @@ pub struct Game<S: Playable> {
     /// Whether bodies that are at rest fall asleep.
     pub sleeps: bool,
     actors: Vec<Actor>,
-    /// Numbers of those that go their own way, in the order in which they were told to, and their ways.
+    /// The numbers of driven bodies, in the order in which they were driven, and their paths.
     driven: Vec<usize>,
     paths: Vec<Path<S>>,
     flights: Flights,
     steps: u32,
-    /// Of the last step, and so about of the next.
+    /// The length of the last step, used as an estimate of the next.
     seconds: f64,
 }
 
-/// Where a driven body is, frame by frame.
+/// The pose of a driven body as a function of the frame.
 type Path<S> = Box<dyn Fn(u32) -> <S as asunder::Space>::Pose + Send>;
 
-/// What the game knows of a body, and the stepper does not.
+/// What the game knows of a body beyond the stepper.
 struct Actor {
     start: DVec3,
-    /// The edge of the cube, or of the square, of its mass, in metres; infinite without one.
+    /// The edge of the cube (in the plane, square) of the same mass, in metres; infinite for a body without mass.
     size: f64,
     is_bullet: bool,
     is_sensor: bool,
@@ -65,20 +65,19 @@ pub struct Counts {
     pub began: usize,
     /// Contacts that ended.
     pub ended: usize,
-    /// Events of sensors among those.
+    /// Those of them in which a sensor took part.
     pub sensed: usize,
     /// Bodies that have left the level.
     pub left: usize,
-    /// Overlap of any step, in metres.
+    /// The deepest overlap in any step, in metres.
     pub deepest: f64,
-    /// Overlap of any step after the first two seconds, in metres.
+    /// The deepest overlap in any step after the first two seconds, in metres.
     pub deepest_settled: f64,
-    /// The same as a share of the smaller body's size: the edge of the cube, or of the square, of its mass.
+    /// The same as a share of the smaller body's size: the edge of the cube, or square, of the same mass.
     pub deepest_share: f64,
 }
 
-/// A shape that moves and has no mass: without an inside, without an end, or too thin for its mass to be told from
-/// zero.
+/// The error of a moving shape without mass: it has no volume or no end, or is so thin that its mass rounds to zero.
 #[derive(Debug)]
 pub struct NoMass;
 
@@ -90,7 +89,7 @@ impl std::fmt::Display for NoMass {
     }
 }
 
-/// Where all bodies are at one time, to be compared with where they are later.
+/// The places of all bodies at one time, to measure later how far they have moved.
 pub struct Places(Vec<(DVec3, DQuat)>);
 
 impl<S: Playable> Game<S> {
@@ -112,7 +111,7 @@ impl<S: Playable> Game<S> {
     /// Adds a body, with speeds in m/s and rad/s, and returns its number.
     ///
     /// # Errors
-    /// A shape that has no mass to speak of.
+    /// A shape without mass.
     pub fn add(&mut self, collider: Collider<S>, velocity: DVec3, spin: DVec3) -> Result<usize, NoMass> {
         let (is_bullet, is_sensor) = (collider.is_bullet(), collider.is_sensor());
         let number = self.stepper.add(collider, velocity, spin).ok_or(NoMass)?;
@@ -122,8 +121,8 @@ impl<S: Playable> Game<S> {
         Ok(number)
     }
 
-    /// Drives a body from now on: after so many steps it is where the path says, whatever is in its way. It pushes
-    /// and carries others with the speed that follows. No such body is no fault.
+    /// Drives a body from now on: after n steps it is where `path(n)` says, whatever is in its way. It pushes and
+    /// carries others with the speed of that motion. Does nothing if there is no such body.
     pub fn drive(&mut self, number: usize, path: impl Fn(u32) -> S::Pose + Send + 'static) {
         let Some(actor) = self.actors.get_mut(number) else { return };
         actor.is_driven = true;
@@ -132,7 +131,7 @@ impl<S: Playable> Game<S> {
         self.paths.push(Box::new(path));
     }
 
-    /// One step of the stepper, with what the game does in between.
+    /// One step of the stepper, with the game's own work in between.
     pub fn step(&mut self, seconds: f64) {
         self.seconds = seconds;
         self.steps += 1;
@@ -150,7 +149,7 @@ impl<S: Playable> Game<S> {
         self.update();
     }
 
-    /// Brings the world's contacts up to date and counts what they say.
+    /// Updates the world's contacts, and counts events and overlaps.
     pub fn update(&mut self) {
         self.look_ahead();
         self.stepper.update();
@@ -159,7 +158,7 @@ impl<S: Playable> Game<S> {
         self.note_depths();
     }
 
-    /// Gives driven bodies the speeds that lead them to their next places.
+    /// Gives driven bodies the velocities that take them to their next poses.
     fn aim(&mut self) -> Vec<S::Pose> {
         let rate = 1.0 / self.seconds;
         let targets: Vec<S::Pose> = self.paths.iter().map(|path| path(self.steps)).collect();
@@ -178,7 +177,7 @@ impl<S: Playable> Game<S> {
         }
     }
 
-    /// Bodies that would be out of the level after this step leave it.
+    /// Removes the bodies that would be out of the level after this step.
     fn take_out_far(&mut self) {
         let is_far = |&number: &usize| {
             let body = &self.stepper.bodies()[number];
@@ -190,11 +189,12 @@ impl<S: Playable> Game<S> {
         far.into_iter().for_each(|number| self.stepper.remove(number));
     }
 
-    /// Tells the world of whatever will move so far that contacts must be there before it arrives.
+    /// Sets the motions of bodies that will move so far that contacts must exist before they arrive.
     fn look_ahead(&mut self) {
         let Self { stepper, actors, flights, seconds, .. } = self;
         flights.clear();
-        // What a bullet hits is known to where both are going.
+        // The impacts of a bullet follow from the motions of both bodies: with a bullet about, all that moves needs
+        // one.
         let everybody = stepper.awake().iter().any(|&number| actors[number].is_bullet);
         for number in stepper.awake().to_vec() {
             let body = &stepper.bodies()[number];
@@ -216,16 +216,16 @@ impl<S: Playable> Game<S> {
         }
     }
 
-    /// A bullet stops where it will hit something; the contact that is there by then does the rest.
+    /// Lets a bullet stop at its first impact; the contact that exists once it is there does the rest.
     fn note_hits(&mut self) {
         let (stepper, actors) = (&self.stepper, &self.actors);
         for hit in stepper.world.impacts().iter().filter(|hit| !hit.sensor) {
             let numbers = (stepper.number(hit.bullet), stepper.number(hit.other));
             let (Some(number), Some(met)) = numbers else { continue };
-            // What it touches already is that contact's business.
+            // If they touch already, that contact decides, not the impact.
             let contact = stepper.world.contact(hit.bullet, hit.other);
             let is_contact = contact.is_some_and(|contact| !contact.speculative);
-            // Two bullets both stop where they meet.
+            // Two bullets both stop where they meet; anything else goes on.
             let goes_on = !actors[met].is_bullet || actors[met].is_driven;
             let speed = if goes_on { stepper.bodies()[met].velocity } else { DVec3::ZERO };
             self.flights.note(number, (S::fraction(&hit.impact), speed * self.seconds), is_contact);
@@ -264,10 +264,10 @@ impl<S: Playable> Game<S> {
     }
 }
 
-/// What turns one rotation to another that is near.
+/// The rotation vector that turns one rotation into another one near it.
 fn spin_between(from: DQuat, to: DQuat) -> DVec3 {
     let by = to * from.conjugate();
-    // The shorter way round. Over a step it is small: an angle and its sine are nearly the same.
+    // The shorter way round. Over a step the angle is small, and nearly equal to its sine.
     let (half, w) = if by.w < 0.0 { (-by.xyz(), -by.w) } else { (by.xyz(), by.w) };
     let sine = half.length();
     if sine > 0.0 { half * (2.0 * libm::atan2(sine, w) / sine) } else { DVec3::ZERO }

@@ -1,6 +1,6 @@
-//! What the larger examples share: a rigid-body stepper over the worlds of the engine, a game on it, and pictures.
+//! What the larger examples share: a rigid-body stepper around the engine's worlds, a game on top of it, and pictures.
 //!
-//! Nothing here is part of the engine, and all of it is written against its public face.
+//! Nothing here is part of the engine, and all of it uses only the engine's public interface.
 //!
 //! ```
 //! use asunder::glam::{DVec3, Vec3};

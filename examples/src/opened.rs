@@ -1,4 +1,4 @@
-//! From a scene to a game: stages by name, and scene files.
+//! Opens a scene as a game: stages by name, and scene files.
 
 use crate::game::Game;
 use crate::playable::{InSpace, Playable};
@@ -9,7 +9,7 @@ use asunder_scenes::stages::{Path2, Path3, Scene, Scene2, Scene3, SceneOf, Stage
 use std::error::Error;
 use std::path::Path;
 
-/// The seed of every stage that is opened by name.
+/// The seed of every stage opened by name.
 pub const SEED: u64 = 20_260;
 
 /// A game of either dimension.
@@ -32,7 +32,7 @@ pub enum AnyGame {
 }
 
 impl AnyGame {
-    /// The game of a scene, before its first update.
+    /// The game of a scene, not updated yet.
     ///
     /// # Errors
     /// A body that moves and has no mass.
@@ -44,10 +44,10 @@ impl AnyGame {
     }
 }
 
-/// The scene of that name, of a size or its usual one; or that of a file, whose size is its own.
+/// The stage of that name, with the given size or its usual one; or the scene of a file, which has its own size.
 ///
 /// # Errors
-/// What is neither; what is wrong with a file.
+/// A name that is neither a stage nor a file, or what is wrong with the file.
 pub fn scene(name: &str, size: Option<usize>) -> Result<Scene, Box<dyn Error>> {
     if let Some(stage) = Stage::by_name(name) {
         return Ok(stage.build(size.unwrap_or_else(|| stage.usual_size()), SEED));
@@ -103,7 +103,7 @@ fn game<S: Playable, Vector: InSpace, Spin: InSpace, P: Clone + Send + 'static>(
     Ok(game)
 }
 
-/// Sensors have none: their events say exactly when something is inside.
+/// Sensors have no margin: their events then say exactly when something is inside.
 fn margin(is_sensor: bool) -> f32 {
     if is_sensor { 0.0 } else { MARGIN }
 }

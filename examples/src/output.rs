@@ -1,11 +1,11 @@
-//! Files that the examples write; each makes the folder that it goes to.
+//! Writes the files of the examples, and makes the folders they go to.
 
 use std::error::Error;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
 
-/// A new file, in place of an older one.
+/// Creates a file, in place of an older one.
 ///
 /// ```
 /// use asunder_examples::output::create;
@@ -17,7 +17,7 @@ use std::path::Path;
 /// ```
 ///
 /// # Errors
-/// What the file system says, with the path.
+/// Those of the file system, with the path.
 pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
     if let Some(folder) = file.parent() {
         fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
@@ -34,7 +34,7 @@ pub fn create(file: &Path) -> Result<File, Box<dyn Error>> {
 /// ```
 ///
 /// # Errors
-/// What the file system says, with the path.
+/// Those of the file system, with the path.
 pub fn write(file: &Path, text: &str) -> Result<(), Box<dyn Error>> {
     let written = create(file)?.write_all(text.as_bytes());
     Ok(written.map_err(|error| format!("{}: {error}", file.display()))?)

@@ -11,10 +11,10 @@ use core::fmt::Write;
 use std::error::Error;
 use std::path::Path;
 
-/// Writes a picture, and says where; makes the folder it goes to.
+/// Writes a picture and prints its path; makes the folder it goes to.
 ///
 /// # Errors
-/// What the file system says, with the path.
+/// Those of the file system, with the path.
 pub fn save(file: &Path, picture: &str) -> Result<(), Box<dyn Error>> {
     output::write(file, picture)?;
     println!("picture        {}", file.display());
@@ -65,18 +65,18 @@ impl Pen {
     }
 }
 
-/// An SVG in the making. Points are in metres, y up; the picture shows the given rectangle of them.
+/// An SVG being drawn. Points are in metres, y up; the picture shows the given rectangle of them.
 struct Canvas {
     elements: String,
     low: DVec2,
     high: DVec2,
     pixels: f64,
-    /// What widths of lines and marks are multiplied by.
+    /// A factor for the widths of lines and the sizes of marks.
     fine: f64,
 }
 
 impl Canvas {
-    /// Around the given points, with some air.
+    /// A canvas around the given points, with a small border.
     fn around(points: impl Iterator<Item = DVec2>) -> Self {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         points.for_each(|point| (low, high) = (low.min(point), high.max(point)));
@@ -85,12 +85,12 @@ impl Canvas {
         }
         let air = (high - low).max_element().max(0.1) * 0.02;
         (low, high) = (low - air, high + air);
-        // A scene much taller than wide is shown as tall as the picture is wide.
+        // A scene that is taller than wide gets a picture as tall as others are wide.
         let pixels = WIDTH / (high - low).max_element();
         Self { elements: String::new(), low, high, pixels, fine: 1.0 }
     }
 
-    /// Shows the middle of a scene that is wider than so many times its height, as large as the picture allows.
+    /// Shows only the middle of a scene that is wider than `times` its height, as large as the picture allows.
     fn at_most_wide(mut self, times: f64) -> Self {
         let size = self.high - self.low;
         let cut = 0.5 * (size.x - times * size.y);
@@ -101,7 +101,7 @@ impl Canvas {
         self
     }
 
-    /// Thinner lines and smaller marks where bodies of so many metres are smaller than 30 pixels.
+    /// Thinner lines and smaller marks if bodies of the given size in metres are smaller than 30 pixels.
     fn fine_for(mut self, size: f64) -> Self {
         self.fine = (size * self.pixels / 30.0).clamp(0.1, 1.0);
         self
@@ -147,7 +147,7 @@ impl Canvas {
         );
     }
 
-    /// The file, on a background that runs from one colour at the top to another at the bottom.
+    /// The text of the file, on a background that fades from one colour at the top to another at the bottom.
     fn finish(self, top: Color, bottom: Color) -> String {
         let size = (self.high - self.low) * self.pixels;
         format!(
@@ -181,7 +181,7 @@ fn hex(color: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// A little lighter or darker from body to body, so that neighbours stand apart.
+/// The colour made a little lighter or darker by body number, so that neighbours stand apart.
 fn varied(color: Color, number: usize) -> Color {
     let scrambled = (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
     let tone = scrambled as f64 / (1 << 24) as f64;

@@ -1,17 +1,17 @@
-//! What a game needs of a dimension beyond what the stepper does.
+//! What a game needs to know of a dimension, beyond what the stepper does.
 
 use crate::recording::Numbers;
 use crate::stepper::Dimension;
 use asunder::glam::{DVec2, DVec3};
 use asunder::{Impact2, Impact3, Motion2, Motion3, Plane, Pose2, Pose3, Volume};
 
-/// A dimension that the game can be played in.
+/// A dimension in which the game can be played.
 pub trait Playable: Dimension<Pose: Numbers> {
-    /// The edge of the square, or of the cube, of a mass.
+    /// The edge of the square or cube with a given mass.
     fn size(mass: f64) -> f64;
-    /// What leads from one pose to another; nothing where they are too far apart.
+    /// The motion from one pose to another; `None` where they are too far apart.
     fn motion(from: &Self::Pose, to: &Self::Pose) -> Option<Self::Motion>;
-    /// The share of a motion until something is hit.
+    /// The share of the motion before the impact.
     fn fraction(impact: &Self::Impact) -> f64;
 }
 
@@ -43,7 +43,7 @@ impl Playable for Volume {
     }
 }
 
-/// A place, a velocity or a spin of a scene as one of space, where the stepper is: the plane is space without height.
+/// A place, velocity or spin of a scene, as a vector in space, where the stepper works. The plane is space with z = 0.
 ///
 /// ```
 /// use asunder::glam::{DVec2, DVec3};
@@ -52,7 +52,7 @@ impl Playable for Volume {
 /// assert_eq!((0.5.in_space(), DVec3::ONE.in_space()), (DVec3::Z * 0.5, DVec3::ONE), "a spin of the plane, a vector");
 /// ```
 pub trait InSpace: Copy {
-    /// The same in space.
+    /// The same as a vector in space.
     fn in_space(self) -> DVec3;
 }
 

@@ -1,7 +1,7 @@
-//! Recordings: where every body was at each step, so that collision alone can be played again.
+//! Recordings: the pose of every body at each step, so that collision alone can be replayed.
 //!
-//! A recording is of one scene, and holds nothing of it but its name and size: whoever plays it builds the scene and
-//! sets poses. All numbers are little-endian, and floats are as they were, bit for bit.
+//! A recording belongs to one scene, of which it holds only the name and size: to play it, build the scene and set the
+//! poses. All numbers are little-endian, and floats are kept bit for bit.
 //!
 //! | part | content |
 //! |---|---|
@@ -9,30 +9,30 @@
 //! | a step | bodies that moved, u32, and as many: number, u32, then the pose; bodies that left, u32, and as many numbers, u32; contacts within margins, u32; contacts that share a point, u32 |
 //! | a pose | position, f64 a coordinate; rotation, f32 a number: cosine and sine in the plane, x, y, z, w in space |
 //!
-//! Steps follow one another to the end of the file. Body numbers are those of the scene. What does not move takes no
-//! room.
+//! Steps follow one another to the end of the file. Body numbers are those of the scene. Bodies that do not move take
+//! no room.
 
 use crate::playable::Playable;
 use asunder::glam::{DVec2, DVec3, Quat};
 use asunder::{Pose2, Pose3, Rotation2, Space};
 use std::io::{ErrorKind, Read, Write};
 
-/// How a recording begins.
+/// The first bytes of every recording.
 pub const MAGIC: [u8; 8] = *b"asunder\n";
 
-/// Of the format on this page.
+/// The version of the format described above.
 pub const VERSION: u32 = 1;
 
 /// The longest name of a scene, in bytes.
 const MAX_NAME: u32 = 4096;
 
-/// A pose as the numbers that it is made of, bit for bit.
+/// A pose as numbers, and back, bit for bit.
 pub trait Numbers: Sized {
-    /// How many a position has, and how many a rotation.
+    /// How many numbers a position has, and how many a rotation.
     const COUNTS: [usize; 2];
-    /// Those of the position, then those of the rotation, which are f32.
+    /// The numbers of the position, then those of the rotation, which are f32.
     fn numbers(&self) -> impl Iterator<Item = f64>;
-    /// The pose of such numbers; nothing where they are none.
+    /// The pose of such numbers; `None` where they make no valid pose.
     fn of_numbers(numbers: &[f64]) -> Option<Self>;
 }
 
@@ -65,7 +65,7 @@ impl Numbers for Pose3 {
     }
 }
 
-/// What a recording says of its scene.
+/// The head of a recording: what it says of its scene.
 ///
 /// ```
 /// use asunder::{Pose3, Volume};
@@ -102,42 +102,42 @@ pub struct Step<S: Space> {
     pub moved: Vec<(u32, S::Pose)>,
     /// Bodies that left the level.
     pub left: Vec<u32>,
-    /// Contacts within margins after it: those by where bodies are, not by where they go.
+    /// Contacts within margins after the step, at the bodies' poses; speculative ones are not counted.
     pub contacts: u32,
-    /// Contacts that share a point.
+    /// Those of them that overlap.
     pub overlapping: u32,
 }
 
 /// What is wrong with a recording.
 #[derive(Debug)]
 pub enum RecordError {
-    /// The file system's own words.
+    /// An error of the file system.
     Io(std::io::Error),
-    /// It does not begin as a recording does.
+    /// It does not begin with [`MAGIC`].
     NoRecording,
     /// It is of another version of the format.
     Version {
-        /// What it says.
+        /// The version it has.
         found: u32,
     },
     /// It ends within its head or a step.
     CutShort,
     /// The head makes no sense.
     Head {
-        /// Which part.
+        /// What is wrong with it.
         part: &'static str,
     },
-    /// A body's number is beyond the scene's bodies.
+    /// A body number is not one of the scene.
     Body {
-        /// What it says.
+        /// The number it has.
         found: u32,
     },
     /// More bodies are listed in a step than the scene has.
     TooMany {
-        /// What it says.
+        /// The count it has.
         found: u32,
     },
-    /// A pose's numbers are no pose.
+    /// The numbers of a pose make no valid pose.
     Pose {
         /// The body.
         body: u32,
@@ -235,8 +235,8 @@ fn read_pose<S: Playable>(from: &mut impl Read) -> Result<Option<S::Pose>, std::
 /// Reads the head of a recording.
 ///
 /// # Errors
-/// What is no recording, is of another version, or is cut short; a dimension that is neither 2 nor 3, a name that is
-/// too long or no text.
+/// A file that is no recording, is of another version, or is cut short; a dimension other than 2 and 3; a name that is
+/// too long or not UTF-8.
 pub fn read_head(from: &mut impl Read) -> Result<Head, RecordError> {
     let magic: [u8; 8] = read(from)?;
     if magic != MAGIC {
@@ -262,10 +262,11 @@ pub fn read_head(from: &mut impl Read) -> Result<Head, RecordError> {
     Ok(Head { dimension, size, bodies, name })
 }
 
-/// Reads a step; nothing where the recording ends. Memory grows with what is read, whatever the file says.
+/// Reads a step; `None` at the end of the recording. Memory grows only with what is actually read, whatever counts the
+/// file claims.
 ///
 /// # Errors
-/// A step that is cut short; bodies that the scene does not have; poses that are none.
+/// A step that is cut short; bodies that the scene does not have; poses that are not valid.
 pub fn read_step<S: Playable>(from: &mut impl Read, head: &Head) -> Result<Option<Step<S>>, RecordError> {
     let mut first = [0; 1];
     loop {
@@ -302,7 +303,7 @@ fn read_u32(from: &mut impl Read) -> Result<u32, RecordError> {
     Ok(u32::from_le_bytes(read(from)?))
 }
 
-/// So many bytes.
+/// Reads `N` bytes.
 fn read<const N: usize>(from: &mut impl Read) -> Result<[u8; N], std::io::Error> {
     let mut bytes = [0; N];
     from.read_exact(&mut bytes)?;
@@ -337,7 +338,7 @@ mod tests {
         Ok(steps)
     }
 
-    /// Half a percent of all rotations are not what normalising makes of them once more.
+    /// Half a percent of all rotations change when they are normalised once more.
     #[test]
     fn poses_come_back_in_every_bit() {
         let head = Head { dimension: 2, size: 1, bodies: 1, name: "letters".to_owned() };
@@ -374,7 +375,7 @@ mod tests {
             for value in [0, 1, 0x7f, 0x80, 0xff] {
                 let mut other = bytes.clone();
                 other[at] = value;
-                // Whatever it is, it is an answer or an error that says something.
+                // Whatever the byte is, the result is a recording or an error with a message.
                 let told = play(&other).map_or_else(|error| error.to_string().len(), |_| 1);
                 assert!(told > 0);
             }

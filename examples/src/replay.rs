@@ -1,4 +1,4 @@
-//! Recording a game, and playing a recording: poses are set as they were, and nothing is solved.
+//! Recording a game, and replaying it: poses are set as they were recorded, and nothing is solved.
 
 use crate::game::Game;
 use crate::playable::Playable;
@@ -8,10 +8,10 @@ use asunder::{AnyWorld, World};
 use std::error::Error;
 use std::io::{Read, Write};
 
-/// Writes down what a game does, step by step.
+/// Records a game, step by step.
 pub struct Recorder<S: Playable, W: Write> {
     to: W,
-    /// Of each body, as of the last step; nothing for one that has left.
+    /// The pose of each body as of the last step; `None` for one that has left.
     last: Vec<Option<S::Pose>>,
 }
 
@@ -61,18 +61,18 @@ fn pose<S: Playable>(game: &Game<S>, number: usize) -> Option<S::Pose> {
     game.key(number).and_then(|key| game.stepper.world.get(key)).map(|body| *S::pose_of(body))
 }
 
-/// How many contacts there are by where bodies are, and how many of them share a point.
+/// How many contacts there are at the bodies' poses, and how many of those overlap.
 fn count_contacts<S: Playable>(world: &World<S>) -> (u32, u32) {
     let near = world.contacts().filter(|contact| !contact.speculative);
     near.fold((0, 0), |(near, overlapping), contact| (near + 1, overlapping + u32::from(contact.overlapping)))
 }
 
-/// Plays at most so many steps of a recording, and returns what they cost. The game is that of the recording's scene,
-/// and only its world is used. Reading is not timed.
+/// Plays at most `steps` steps of a recording, and returns what they cost. The game must be that of the recording's
+/// scene; only its world is used. Reading is not timed.
 ///
 /// # Errors
-/// What is wrong with the recording. Another number of bodies than it says, and contacts other than it says: then the
-/// scene, the engine or the file is not what it was.
+/// What is wrong with the recording; a number of bodies or contacts other than recorded, which means that the scene,
+/// the engine or the file has changed.
 pub fn replay<S: Playable>(
     game: &mut Game<S>,
     from: &mut impl Read,

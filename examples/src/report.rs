@@ -1,4 +1,4 @@
-//! What a run cost and found, in words or as one line of JSON.
+//! Reports what a run cost and found, as text or as one line of JSON.
 
 use crate::game::Game;
 use crate::playable::Playable;
@@ -15,17 +15,17 @@ pub const STEP: f64 = 1.0 / 60.0;
 /// Times summed over the steps of a run.
 #[derive(Clone, Copy, Default)]
 pub struct Times {
-    /// So many steps.
+    /// The number of steps.
     pub steps: u32,
     /// The stages of an update, in the order of [`stages`].
     pub stages: [Duration; STAGES],
     /// The longest update.
     pub worst_update: Duration,
-    /// All that a step took, the solver included.
+    /// The whole time of all steps, the solver included.
     pub all: Duration,
 }
 
-/// How many stages are told apart.
+/// How many stages are timed.
 pub const STAGES: usize = 6;
 
 /// The stages of the last update: their names and times.
@@ -42,7 +42,7 @@ pub fn stages(stats: &Stats) -> [(&'static str, Duration); STAGES] {
 }
 
 impl Times {
-    /// Adds what a step takes that leaves the world updated.
+    /// Times a step that ends with an update of the world.
     pub fn measure<T>(&mut self, game: &mut T, stats: fn(&T) -> &Stats, step: impl FnOnce(&mut T)) {
         let start = Instant::now();
         step(game);
@@ -66,7 +66,7 @@ impl Times {
     }
 }
 
-/// A bar that shows how far a run is.
+/// A progress bar for a run of so many steps.
 pub fn bar(steps: u64) -> ProgressBar {
     let bar = ProgressBar::new(steps);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left  {msg}") {
@@ -75,10 +75,10 @@ pub fn bar(steps: u64) -> ProgressBar {
     bar
 }
 
-/// Plays so many steps of 1/60 s behind a progress bar, and tells of each; returns what they cost.
+/// Plays so many steps of 1/60 s behind a progress bar, calls `tell` after each, and returns what they cost.
 ///
 /// # Errors
-/// What the telling says.
+/// What `tell` returns.
 pub fn timed<S: Playable, E>(
     game: &mut Game<S>,
     steps: u32,
@@ -97,26 +97,26 @@ pub fn timed<S: Playable, E>(
     Ok(times)
 }
 
-/// Plays some steps untimed, then so many more; returns what the latter cost.
+/// Plays some steps untimed, then so many more, and returns what the latter cost.
 pub fn timed_after<S: Playable>(game: &mut Game<S>, after: u32, steps: u32) -> Times {
     let Ok(_) = timed(game, after, |_| Ok::<(), Infallible>(()));
     let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
     times
 }
 
-/// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches.
+/// Plays so many steps of 1/60 s behind a progress bar, then prints what they cost and what touches at the end.
 pub fn run<S: Playable>(game: &mut Game<S>, name: &str, steps: u32) {
     let Ok(times) = timed(game, steps, |_| Ok::<(), Infallible>(()));
     print(game, name, &times, game.counts.left);
 }
 
-/// Candidates that are no contact, as a share of all candidates: what the broad phase let through for nothing.
+/// The share of candidate pairs that are no contacts: the false positives of the broad phase.
 pub fn false_pairs(stats: &Stats) -> f64 {
     let wasted = stats.candidates.saturating_sub(stats.contacts);
     wasted as f64 / stats.candidates.max(1) as f64
 }
 
-/// Prints what a run cost and what touches at its end; how many bodies are outside the scene's room besides.
+/// Prints what a run cost, what touches at its end, and how many bodies are outside the scene's room.
 pub fn print<S: Playable>(game: &Game<S>, name: &str, times: &Times, outside: usize) {
     let (stats, counts) = (game.stepper.world.stats(), game.counts);
     print_times(name, times, stats, "response");
@@ -142,7 +142,7 @@ pub fn print<S: Playable>(game: &Game<S>, name: &str, times: &Times, outside: us
     print_overflow(stats);
 }
 
-/// Prints what a run cost that only set poses, and what touches at its end.
+/// Prints what a replay cost, which only sets poses, and what touches at its end.
 pub fn print_replay<S: Playable>(world: &World<S>, name: &str, times: &Times) {
     print_times(name, times, world.stats(), "set poses");
     println!("bodies         {}", world.stats().bodies);
@@ -184,7 +184,7 @@ fn print_overflow(stats: &Stats) {
 /// One line of JSON: times in milliseconds a step, and counts of the last step.
 pub fn json(name: &str, times: &Times, stats: &Stats) -> String {
     let mut line = String::from("{");
-    // Writing to a string cannot fail; a name is escaped as JSON does.
+    // Writing to a string cannot fail; `serde_json` escapes the name.
     let _ = write!(line, "\"scene\":{},\"steps\":{}", serde_json::Value::from(name), times.steps);
     for ((stage, _), sum) in stages(stats).into_iter().zip(times.stages) {
         let _ = write!(line, ",\"{stage}_ms\":{:.4}", times.mean(sum));

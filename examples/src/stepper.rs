@@ -1,20 +1,21 @@
-//! A rigid-body stepper: a world, and bodies with mass and speed that its contacts push apart.
+//! A rigid-body stepper: a world, and bodies with mass and velocity that its contacts push apart.
 //!
-//! [`Stepper::step`] reads as what it does: [`solve`](Stepper::solve), which turns contacts into motions;
-//! [`advance`](Stepper::advance), which moves the bodies; [`settle`](Stepper::settle), which sends to sleep what rests;
-//! and [`update`](Stepper::update), which finds the next contacts and wakes what they concern. A game that has
-//! something to do in between calls the four by itself.
+//! [`Stepper::step`] is four calls, and a game that has something to do in between makes them itself:
+//! - [`solve`](Stepper::solve) turns contacts into motions;
+//! - [`advance`](Stepper::advance) moves the bodies;
+//! - [`settle`](Stepper::settle) sends bodies at rest to sleep;
+//! - [`update`](Stepper::update) finds the next contacts and wakes the sleeping bodies that they concern.
 //!
 //! | file | what is in it |
 //! |---|---|
-//! | this one | the step, which contacts matter, what can be asked |
-//! | `body` | where a body is, how it moves and how it yields |
+//! | this one | the step, which contacts are solved, queries |
+//! | `body` | where a body is, how it moves and how it answers pushes |
 //! | `solver` | soft contacts, friction, restitution, warm starting |
 //! | `islands` | who sleeps |
-//! | `dimension` | what must be known of space, and of the plane |
+//! | `dimension` | what differs between space and the plane |
 //!
-//! It uses the engine's public face alone, and nothing else of the examples. Equal calls give equal bits: bodies and
-//! contacts are visited in their own order, in one thread.
+//! It uses only the engine's public interface, and nothing else of the examples. Equal calls give equal bits: bodies
+//! and contacts are visited in a fixed order, in one thread.
 //!
 //! ```
 //! use asunder::glam::{DVec3, Vec3};
@@ -48,35 +49,35 @@ use asunder::{AnyWorld, Collider, World};
 use islands::Islands;
 use solver::{Pass, warm_start};
 
-/// How close bodies come before they get a contact, each. A contact that exists before it is needed lets the solver
-/// stop a body at the surface instead of inside it.
+/// The contact margin of each body: how close it comes before it gets a contact. A contact that exists before it is
+/// needed lets the solver stop a body at the surface instead of inside it.
 pub const MARGIN: f32 = 0.02;
 
-/// Bodies nearer than this, in metres, are of one island, and wake each other.
+/// Bodies with a separation below this, in metres, belong to one island and wake each other.
 const JOINED: f64 = 0.005;
 
-/// The world and the bodies in it. A body has a number, by the order in which it was added, and keeps it.
+/// A world and the bodies in it. A body's number is the order in which it was added, and never changes.
 pub struct Stepper<S: Dimension> {
-    /// What finds the contacts.
+    /// The world, which finds the contacts.
     pub world: World<S>,
     /// In m/s^2.
     pub gravity: DVec3,
-    /// What bodies are like where they touch.
+    /// How bodies behave where they touch.
     pub feel: Feel,
     bodies: Vec<Body>,
     numbers: SecondaryMap<S::Key, usize>,
     islands: Islands,
     driven: Vec<usize>,
-    /// As the last update found them, in the world's order of pairs; and those of the last step, as they pushed.
+    /// The points of the last update, in the world's order of pairs; and those that the last step has solved.
     points: Vec<Point>,
     solved: Vec<Point>,
-    /// Of the last step, and so about of the next.
+    /// The length of the last step, used as an estimate of the next.
     seconds: f64,
 }
 
 impl<S: Dimension> Stepper<S> {
-    /// An empty world, with gravity in m/s^2. In the plane the third coordinate is zero, here and wherever a place or a
-    /// velocity is asked for, and so are the first two of a spin.
+    /// An empty world, with gravity in m/s^2. In the plane the third coordinate of every place and velocity is zero,
+    /// and so are the first two of every spin.
     pub fn new(gravity: DVec3) -> Self {
         Self {
             world: World::new(),
@@ -92,8 +93,8 @@ impl<S: Dimension> Stepper<S> {
         }
     }
 
-    /// Adds a body, with speeds in m/s and rad/s, and returns its number; nothing for a shape that has no mass to speak
-    /// of. One that is fixed needs none, and has no speed until it is driven.
+    /// Adds a body, with velocities in m/s and rad/s, and returns its number; `None` for a shape without mass. A fixed
+    /// body needs no mass, and has no velocity until it is driven.
     pub fn add(&mut self, collider: Collider<S>, velocity: DVec3, spin: DVec3) -> Option<usize> {
         let (state, mass, [velocity, spin]) = match collider.is_fixed() {
             true => (State::Fixed, Mass::ENDLESS, [DVec3::ZERO; 2]),
@@ -107,8 +108,8 @@ impl<S: Dimension> Stepper<S> {
         Some(number)
     }
 
-    /// Drives a body from now on: no push moves it, it goes with the speed that it is given in [`Self::bodies_mut`],
-    /// and pushes and carries others with that. No such body is no fault.
+    /// Drives a body from now on: no push moves it; it moves with the velocity set in [`Self::bodies_mut`], and pushes
+    /// and carries others. Does nothing if there is no such body.
     pub fn drive(&mut self, number: usize) {
         self.wake(&[number]);
         let Some(body) = self.bodies.get_mut(number) else { return };
@@ -118,7 +119,7 @@ impl<S: Dimension> Stepper<S> {
         self.driven.push(number);
     }
 
-    /// Puts a body somewhere else.
+    /// Puts a body somewhere else; its velocity stays as it is.
     pub fn place(&mut self, number: usize, pose: S::Pose) {
         let Some(body) = self.bodies.get_mut(number) else { return };
         let (position, turn) = S::place(&pose);
@@ -128,7 +129,7 @@ impl<S: Dimension> Stepper<S> {
         let _ = self.world.set_pose(body.key.into(), pose);
     }
 
-    /// Takes a body out of the world, and wakes whom it touches.
+    /// Takes a body out of the world, and wakes the bodies it touches.
     pub fn remove(&mut self, number: usize) {
         let Some(key) = self.bodies.get(number).map(|body| S::Key::from(body.key)) else { return };
         let contacts = self.world.contacts().filter(|contact| contact.a == key || contact.b == key);
@@ -146,34 +147,34 @@ impl<S: Dimension> Stepper<S> {
         &self.bodies
     }
 
-    /// For other speeds: of a body that sleeps after [`Self::wake`]. Between [`Self::solve`] and [`Self::advance`], for
-    /// other ways in this step.
+    /// To change velocities (of a sleeping body, only after [`Self::wake`]), or, between [`Self::solve`] and
+    /// [`Self::advance`], the motions of this step.
     pub fn bodies_mut(&mut self) -> &mut [Body] {
         &mut self.bodies
     }
 
-    /// The numbers of bodies that pushes move and that are awake, ascending.
+    /// The numbers of the bodies that are awake and that pushes can move, ascending.
     pub fn awake(&self) -> &[usize] {
         &self.islands.awake
     }
 
-    /// The numbers of bodies that sleep, ascending.
+    /// The numbers of the sleeping bodies, ascending.
     pub fn asleep(&self) -> &[usize] {
         &self.islands.asleep
     }
 
-    /// The contact points of the last update between bodies of which one moves.
+    /// The contact points of the last update, between bodies of which at least one moves.
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// The number of a body of the world; nothing for a key of another world.
+    /// The number of a body of the world; `None` for a key of another world.
     pub fn number(&self, key: S::Key) -> Option<usize> {
         self.numbers.get(key).copied()
     }
 
-    /// One step of some seconds, more than none: the contacts of the last update push, bodies move, what is at rest
-    /// falls asleep, and the world finds the next contacts.
+    /// One step of so many seconds, more than zero: solves the contacts of the last update, moves the bodies, sends to
+    /// sleep what is at rest, and finds the next contacts.
     pub fn step(&mut self, seconds: f64) {
         self.solve(seconds);
         self.advance();
@@ -213,11 +214,11 @@ impl<S: Dimension> Stepper<S> {
         core::mem::swap(&mut self.points, &mut self.solved);
     }
 
-    /// Moves the bodies. One whose numbers are no pose any more stops.
+    /// Moves the bodies. A body whose motion leads to no valid pose stays where it is and stops.
     pub fn advance(&mut self) {
         for &number in self.islands.awake.iter().chain(&self.driven) {
             let body = &mut self.bodies[number];
-            // What stays where it is keeps its pose to the bit, and costs the world nothing.
+            // A body without motion keeps its pose to the bit, and costs the world nothing.
             if body.moved == DVec3::ZERO && body.turned == DVec3::ZERO {
                 continue;
             }
@@ -233,7 +234,7 @@ impl<S: Dimension> Stepper<S> {
         }
     }
 
-    /// Sends islands to sleep that are at rest.
+    /// Sends islands at rest to sleep.
     pub fn settle(&mut self) {
         let Self { bodies, islands, .. } = self;
         for number in islands.awake.clone() {
@@ -255,8 +256,8 @@ impl<S: Dimension> Stepper<S> {
         }
     }
 
-    /// Finds the contacts of bodies where they are now, and wakes the islands that something which moves touches, or
-    /// will touch in the next step: to be hit while asleep is to be hit as a wall.
+    /// Finds the contacts at the bodies' new poses, and wakes every island that a moving body touches or will touch in
+    /// the next step: a body still asleep when it is hit would act as a wall.
     pub fn update(&mut self) {
         self.world.update();
         self.gather();
@@ -268,7 +269,7 @@ impl<S: Dimension> Stepper<S> {
         self.wake(&near);
     }
 
-    /// Wakes the islands of those of these bodies that sleep.
+    /// Wakes the islands of the given bodies, as far as they sleep.
     pub fn wake(&mut self, numbers: &[usize]) {
         let is_asleep = |&number: &usize| self.bodies.get(number).is_some_and(|b| b.state == State::Asleep);
         let asleep: Vec<usize> = numbers.iter().copied().filter(is_asleep).collect();
@@ -278,11 +279,11 @@ impl<S: Dimension> Stepper<S> {
         for number in self.islands.wake(&asleep) {
             self.bodies[number].state = State::Awake;
         }
-        // Whoever woke has contacts that nobody asked for before.
+        // Contacts between sleeping bodies were left out; those of the bodies that woke count now.
         self.gather();
     }
 
-    /// Collects the contact points that matter: of bodies of which one moves, and one can be pushed.
+    /// Collects the contact points to be solved: one body of the pair must move, and one must not be fixed.
     fn gather(&mut self) {
         let Self { world, bodies, numbers, points, .. } = self;
         points.clear();
@@ -290,7 +291,7 @@ impl<S: Dimension> Stepper<S> {
             let (Some(&a), Some(&b)) = (numbers.get(contact.a), numbers.get(contact.b)) else { continue };
             let moves = |body: usize| bodies[body].state == State::Awake || bodies[body].is_moving();
             let is_fixed = |body: usize| bodies[body].state == State::Fixed;
-            // Of bullets the world says more: what they hit, and when. Whoever has bullets asks for that.
+            // Speculative contacts of bullets are left out: a game with bullets uses their impacts, which say more.
             let is_bullet = |key| world.get(key).is_some_and(Collider::is_bullet);
             let is_flying = contact.speculative && (is_bullet(contact.a) || is_bullet(contact.b));
             if is_flying || !(moves(a) || moves(b)) || is_fixed(a) && is_fixed(b) {

@@ -6,8 +6,8 @@ use asunder_scenes::random::Random;
 use core::f64::consts::TAU;
 use std::error::Error;
 
-/// A thing of a size by chance, of the kind that a number has: one of six, in turns. No vertex of it is further than
-/// half a metre from its origin.
+/// A thing of random size and of one of six kinds, by `number % 6`. No vertex of it is further than half a metre from
+/// its origin.
 ///
 /// ```
 /// use asunder::Shape3;
@@ -19,7 +19,7 @@ use std::error::Error;
 /// ```
 ///
 /// # Errors
-/// None, with the sizes that are thrown for.
+/// None, for the sizes drawn here.
 pub fn shape(number: usize, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
     Ok(match number % 6 {
         0 => {

@@ -1,7 +1,7 @@
-//! The stepper's targets, one a line: `cargo run --release --example targets`.
+//! Checks the stepper's targets, one a line: `cargo run --release --example targets`.
 //!
-//! Stacks stand, a fast ball does not pass a thin wall, nothing is lost, and equal runs are equal. A target that is
-//! missed ends the program with exit code 1. Then, with `--times`, what a step of each scene costs, stage by stage.
+//! Stacks stand, a fast ball does not pass a thin wall, no body is lost, and equal runs are equal. A missed target ends
+//! the program with exit code 1. With `--csv FILE` it times scenes instead, stage by stage.
 
 use asunder_examples::opened::{AnyGame, SEED};
 use asunder_examples::output;
@@ -52,7 +52,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether all targets are met; each is printed as it is known.
+/// Whether all targets are met; prints each as soon as it is known.
 fn check_all(options: &Options) -> Result<bool, Box<dyn Error>> {
     let mut is_met = true;
     let mut check = |name: &str, trial: &dyn Fn() -> Result<Vec<Figure>, Box<dyn Error>>| {
@@ -91,20 +91,20 @@ fn check_all(options: &Options) -> Result<bool, Box<dyn Error>> {
     Ok(is_met)
 }
 
-/// How many runs, of two at one thread, and at 2 and 8, end otherwise than the first.
+/// Of runs at 1, 1, 2 and 8 threads, how many end otherwise than the first.
 fn differing(stage: Stage) -> Result<Figure, Box<dyn Error>> {
     let size = stage.usual_size().min(600);
     let mut digests = Vec::new();
     for threads in [1, 1, 2, 8] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-        // The error is not one that may cross threads; its words are.
+        // The error is not `Send`; its text is.
         digests.push(pool.install(|| digest(stage, size, 90).map_err(|error| error.to_string()))?);
     }
     let others = digests.iter().filter(|&&digest| digest != digests[0]).count();
     Ok(Figure { what: "runs at 1, 1, 2 and 8 threads that differ", is: others as f64, most: 0.0 })
 }
 
-/// Times every stage of its usual size, from where it is after some steps.
+/// Times every stage at its usual size, after some untimed steps.
 fn write_times(file: &Path, options: &Options) -> Result<(), Box<dyn Error>> {
     let mut table = String::from("scene,bodies,steps");
     for (stage, _) in stages(&Default::default()) {

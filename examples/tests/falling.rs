@@ -1,4 +1,4 @@
-//! Heaps that were stepped once: the same each time, and bodies that fall into the pit, tumble and stay in it.
+//! Recorded heaps: they are the same each time, and their bodies fall into the pit, tumble and stay in it.
 #![allow(clippy::unwrap_used, reason = "helpers of tests stop the test, as tests do")]
 
 use asunder::Pose3;
@@ -6,10 +6,10 @@ use asunder_examples::falling::{FRAMES, recorded};
 use asunder_scenes::stages::Falling;
 use asunder_scenes::worlds::Replay3;
 
-/// Bodies of a heap that is small, and yet five deep: a pit of 5 m, and 125 in it.
+/// The bodies of a heap that is small, yet five deep: a pit of 5 m, with 125 bodies in it.
 const COUNT: usize = 130;
 
-/// Where all that moves is, frame by frame.
+/// The poses of all moving bodies, frame by frame.
 fn frames(mut replay: Replay3) -> Vec<Vec<Pose3>> {
     let at = |frame| {
         replay.advance(frame);
@@ -47,13 +47,13 @@ fn bodies_fall_and_tumble_and_no_frame_is_like_the_last() {
     for heap in Falling::ALL {
         let frames = frames(recorded(heap, COUNT, 1).unwrap());
         let heights: Vec<f64> = frames.iter().map(|poses| mean_height(poses)).collect();
-        // From a start this low nearly all have landed after half a second, and the rest is settling.
+        // From so low a start nearly all have landed after half a second, and then they settle.
         assert!(heights[..25].windows(2).all(|two| two[1] < two[0]), "{}: {heights:?}", heap.name());
         assert!(heights[0] - heights[FRAMES as usize] > 0.4, "{}: {heights:?}", heap.name());
         for two in frames.windows(2) {
             assert!(two[0].iter().zip(&two[1]).all(|(before, after)| before != after), "{}", heap.name());
         }
-        // Half of them turn by 9 degrees and more: the dot product is the cosine of half the angle.
+        // Half of them turn by 9 degrees or more: the dot product is the cosine of half the angle.
         let turned = frames[0].iter().zip(&frames[FRAMES as usize]);
         let turned = turned.filter(|(a, b)| a.rotation().dot(b.rotation()).abs() < 0.9969);
         assert!(turned.count() > 62, "{}", heap.name());
@@ -64,7 +64,7 @@ fn bodies_fall_and_tumble_and_no_frame_is_like_the_last() {
 fn nobody_leaves_the_pit_nor_is_faster_than_a_fall_makes_it() {
     for heap in Falling::ALL {
         let (low, high) = heap.above_pit(COUNT, 1).room;
-        // Down from the top of the room, and what pushes bodies apart that overlap: 3 m/s at most, from two sides.
+        // A fall from the top of the room, and the removal of overlap: 3 m/s at most, from two sides.
         let fastest = (2.0 * 9.81 * high.y).sqrt() + 6.0;
         let frames = frames(recorded(heap, COUNT, 1).unwrap());
         for poses in &frames {

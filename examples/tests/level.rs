@@ -1,4 +1,4 @@
-//! The example `level` as it is run: bad files are refused by a message, and on its own level nothing falls through.
+//! The example `level` as a program: bad files are refused with a message, and nothing falls through its own level.
 //!
 //! `cargo test` builds examples before it runs tests; `cargo test --test level` alone does not.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A triangle's corners, and nothing made of them.
+/// A triangle's corners, without a face.
 const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 0 0 1\n";
 
 /// Where this test may put a file.
@@ -14,7 +14,7 @@ fn place(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
 
-/// Runs the example; its picture goes to a place of its own.
+/// Runs the example, with a place of its own for its picture.
 fn level(name: &str, arguments: &[&str]) -> Output {
     let deps = std::env::current_exe().unwrap();
     let example = deps.parent().unwrap().parent().unwrap().join("examples/level");
@@ -23,7 +23,7 @@ fn level(name: &str, arguments: &[&str]) -> Output {
     Command::new(example).arg("--svg").arg(place(name)).args(arguments).output().unwrap()
 }
 
-/// What the example says of a file, on one line: the file's name, then the reason.
+/// The example's message about a file, on one line: the file's name, then the reason.
 fn refusal(file: &Path) -> String {
     let file = file.to_str().unwrap();
     let output = level("refused.svg", &["--steps", "1", "--bodies", "1", file]);
@@ -71,7 +71,7 @@ fn so_is_what_is_no_file() {
     }
 }
 
-/// Four seconds: what had fallen through would be tens of metres below, and fast.
+/// After four seconds, anything that had fallen through would be tens of metres below, and fast.
 #[test]
 fn nothing_falls_through_the_level() {
     for (name, more) in [("two.svg", None), ("one.svg", Some("--one-sided"))] {
@@ -83,7 +83,7 @@ fn nothing_falls_through_the_level() {
         let bodies = value("bodies ").unwrap();
         assert!(bodies.starts_with("81 (") && bodies.ends_with(" 0 left the level)"), "{said}");
         assert_eq!(value("outside "), None, "{said}");
-        // They have landed, and lie on it.
+        // All have landed, and lie on the level.
         let touching = value("contacts ").unwrap().split(['(', ' ']).nth(2).unwrap().parse::<u32>().unwrap();
         assert!(touching >= 80, "{said}");
         assert!(std::fs::read_to_string(place(name)).unwrap().starts_with("<svg"), "{name}");

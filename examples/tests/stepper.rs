@@ -1,4 +1,4 @@
-//! What the stepper does with bodies: bounces, carries, sends to sleep and wakes, and is played again.
+//! What the stepper does with bodies: it lets them bounce, carries them, sends them to sleep, wakes and replays them.
 #![allow(clippy::unwrap_used, reason = "helpers of tests stop the test, as tests do")]
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
@@ -39,14 +39,14 @@ fn a_ball_rises_as_high_as_its_restitution_says() {
         game.stepper.feel.restitution = restitution;
         let ball = add(&mut game, &Sphere::new(0.25).unwrap().into(), DVec3::Y * 2.25, false);
         game.update();
-        // It takes 0.64 s down; the top of the first bounce is sought in the second after that.
+        // The fall takes 0.64 s; the top of the first bounce is sought in the second after that.
         steps(&mut game, 39);
         let mut top: f64 = 0.0;
         for _ in 0..60 {
             game.step(STEP);
             top = top.max(game.center(ball).unwrap().y - 0.25);
         }
-        // The speed is a share e of what it was, the height e squared. Steps of 1/60 s at 6 m/s are 10 cm long.
+        // The rebound has a share e of the speed, and e squared of the height. Steps of 1/60 s at 6 m/s are 10 cm long.
         let expected = 2.0 * restitution * restitution;
         assert!((top - expected).abs() < 0.1, "{restitution}: {top} m, not {expected}");
     }
@@ -63,7 +63,7 @@ fn a_driven_floor_carries_what_stands_on_it() {
     game.update();
     steps(&mut game, 120);
     let moved = game.center(cube).unwrap();
-    // All but the time in which friction of 0.8 brings it up to speed: 0.6 / (0.8 * 9.81) s, at half the speed.
+    // Except while friction of 0.8 brings it up to speed: for 0.6 / (0.8 * 9.81) s, at half the speed on average.
     assert!((moved.x - 2.0 * speed).abs() < 0.05 * speed, "{moved}");
     assert!((moved.y - 1.5).abs() < 0.005, "{moved}");
     assert_eq!(game.awake_and_asleep(), (1, 0), "what is carried does not sleep");
@@ -134,7 +134,7 @@ fn a_recording_plays_again_with_the_same_contacts_and_tells_of_others() {
 #[test]
 fn the_plane_keeps_a_pose_and_turns_by_its_angle() {
     for i in -32..=32 {
-        // All the way round, both ends twice.
+        // All the way round, with both ends.
         let angle = f64::from(i) * core::f64::consts::PI / 32.0;
         let (sin, cos) = (libm::sin(angle) as f32, libm::cos(angle) as f32);
         let pose = Pose2::new(DVec2::new(3.0, -4.0), Rotation2::new(cos, sin).unwrap()).unwrap();
@@ -193,7 +193,7 @@ fn a_driven_body_goes_with_its_speed_and_a_removed_one_wakes_what_stood_on_it() 
     assert_eq!((stepper.bodies()[table].state, stepper.awake()), (State::Removed, &[cube][..]));
     (0..30).for_each(|_| stepper.step(STEP));
     assert!(stepper.bodies()[cube].center.y < 1.0, "nothing bears it");
-    // What is out, or never was, is no fault.
+    // Numbers of bodies that were removed or never added are ignored.
     stepper.remove(table);
     stepper.remove(99);
     stepper.drive(99);

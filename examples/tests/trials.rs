@@ -1,4 +1,4 @@
-//! The stepper's targets in short: `cargo run --release --example targets` has them in full.
+//! Short versions of the stepper's targets: `cargo run --release --example targets` runs them in full.
 #![allow(clippy::unwrap_used, reason = "helpers of tests stop the test, as tests do")]
 
 use asunder_examples::trials::{Figure, digest, keep, shoot, stand};

@@ -1,4 +1,4 @@
-//! How long a bench of daily use takes: seconds in all.
+//! Settings for benches in daily use: seconds in all.
 
 use core::time::Duration;
 use criterion::Criterion;

@@ -100,7 +100,7 @@ impl Part {
         }
     }
 
-    /// Of all its rows.
+    /// The names of all its rows.
     fn row_names(&self) -> Vec<String> {
         let effort = self.options().effort();
         match self {
@@ -142,7 +142,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             format!("no row has {:?} in its name; there are {}", options.only, names.join(", ")).into()
         );
     }
-    // One thread, so that its CPU time is all the time there is.
+    // One thread, so that its CPU time is all the time spent.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     if let Part::Broad(BroadOptions { hurt: true, large, .. }) = part {
         pool.install(|| compare_growth(large, options));
@@ -160,7 +160,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     pool.install(|| compare(&part).map_err(|error| error.to_string())).map_err(Into::into)
 }
 
-/// A number of threads, of which there must be one.
+/// A number of threads, of which there must be at least one.
 fn at_least_one(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(0) => Err("there is no work without a thread: give 1 or more".to_string()),
@@ -178,7 +178,7 @@ fn compare_threads(threads: usize, large: bool, options: &Options) -> Result<(),
     Ok(())
 }
 
-/// Rows of boxes that are laid out to hurt.
+/// Rows of boxes laid out to make a broad phase slow.
 fn compare_growth(large: bool, options: &Options) {
     if !options.json {
         println!("{}", GrowthRow::heading());
@@ -214,7 +214,7 @@ fn compare(part: &Part) -> Result<(), Box<dyn Error>> {
     if options.save { save(rows) } else { Ok(()) }
 }
 
-/// Puts rows among those that are kept for this processor.
+/// Puts rows among those that are stored for this processor.
 fn save(rows: Vec<KeptRow>) -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results").join(Processor::here().folder());
     let mut data = Data::read(&folder)?;

@@ -1,7 +1,7 @@
-//! Prints what hints buy pairs of compounds: `compounds [rounds]`.
+//! Prints how much hints save for pairs of compounds: `compounds [rounds]`.
 //!
-//! Hammers of 2 to 8 parts, boxes or hulls, that drift a little from frame to frame. Each pair is asked about with
-//! what its last answer left, and without; thread CPU time a pair, the two in turns, medians.
+//! Hammers of 2 to 8 parts, boxes or hulls, that drift a little from frame to frame. Each pair is queried with the hint
+//! that its last answer left, and without. Thread CPU time per pair, the two variants in turns, medians.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_geometry::{Compound3, Cuboid, Hull, Pose3, Shape3};
@@ -10,13 +10,13 @@ use asunder_scenes::random::Random;
 use clap::Parser;
 use glam::{DVec3, Quat, Vec3};
 
-/// Pairs of a row.
+/// Pairs per row.
 const PAIRS: usize = 64;
 
-/// Frames that a pair is followed for; the first is not timed.
+/// Frames for which a pair is followed; the first is not timed.
 const FRAMES: usize = 32;
 
-/// How two bodies lie: a name, and a pair that lies so.
+/// A placement of two bodies: a name, and a function that makes such a pair.
 type Scene = (&'static str, fn(&mut Random, usize, bool) -> Option<Posed>);
 
 const SCENES: [Scene; 4] =
@@ -61,7 +61,7 @@ fn main() {
     }
 }
 
-/// Nanoseconds a pair, without hints and with.
+/// Nanoseconds per pair, without hints and with.
 fn measure(pairs: &[Posed], rounds: usize, random: &mut Random) -> [f64; 2] {
     let frames: Vec<Vec<Pose3>> =
         (0..FRAMES).map(|_| pairs.iter().map(|pair| strayed(pair, random)).collect()).collect();
@@ -96,13 +96,13 @@ fn ask(pairs: &[Posed], poses: &[Pose3], hints: &[Hint], batch: &mut Batch3) {
     collide3(&jobs, batch);
 }
 
-/// Where the second body is in some frame.
+/// The pose of the second body in some frame.
 fn strayed(pair: &Posed, random: &mut Random) -> Pose3 {
     let pose = &pair.poses[1];
     Pose3::new(pose.position() + random.direction() * 2e-4, pose.rotation()).unwrap_or(*pose)
 }
 
-/// A handle along y of all parts but one, and a head across it.
+/// A hammer: a handle along y of all parts but one, and a head across it.
 fn hammer(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Shape3> {
     let length = 1.6 / (parts - 1) as f32;
     let mut all = vec![(Pose3::at([0.0, 0.9, 0.0]).ok()?, part(random, Vec3::new(0.5, 0.2, 0.2), of_hulls)?)];
@@ -114,7 +114,7 @@ fn hammer(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Shape3> {
     Some(Compound3::new(all).ok()?.into())
 }
 
-/// A box, or the hull of 32 points of the ellipsoid that fills it.
+/// A box, or the hull of 32 points on the ellipsoid inscribed in it.
 fn part(random: &mut Random, half: Vec3, of_hull: bool) -> Option<Shape3> {
     if !of_hull {
         return Some(Cuboid::from_half_extents(half).ok()?.into());
@@ -123,7 +123,7 @@ fn part(random: &mut Random, half: Vec3, of_hull: bool) -> Option<Shape3> {
     Some(Hull::from_points(&points).ok()?.into())
 }
 
-/// Boxes around them overlap, but a plane parts them.
+/// Their AABBs overlap, but a plane separates them.
 fn apart(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let posed = near(random, parts, of_hulls)?;
     let around = [around(&posed.shapes[0])?, around(&posed.shapes[1])?];
@@ -132,7 +132,7 @@ fn apart(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     (found.separation > 0.03).then_some(posed)
 }
 
-/// The hull of a compound whose parts are not turned.
+/// The hull of a compound whose parts are not rotated.
 fn around(shape: &Shape3) -> Option<Shape3> {
     let Shape3::Compound(compound) = shape else { return None };
     let mut points = Vec::new();
@@ -143,7 +143,7 @@ fn around(shape: &Shape3) -> Option<Shape3> {
     Some(Hull::simplify(&points, 128).ok()?.into())
 }
 
-/// The corner between one's head and handle holds the other's head: no plane parts them.
+/// The head of one is in the corner between the other's head and handle: no plane separates them.
 fn hooked(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let shapes = [hammer(random, parts, of_hulls)?, hammer(random, parts, of_hulls)?];
     let place = DVec3::new(random.range(0.62, 0.68), random.range(-0.47, -0.43), random.range(-0.02, 0.02));
@@ -152,7 +152,7 @@ fn hooked(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     (found.separation > 0.012).then_some(posed)
 }
 
-/// Pushed together along the axis of the distance, until they overlap by a millimetre.
+/// Pushed together along the normal of their separation, until they overlap by a millimetre.
 fn touching(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let mut posed = apart(random, parts, of_hulls)?;
     let Separation3::Measured(found) = pair(&posed).separation(f32::INFINITY) else { return None };
@@ -161,11 +161,11 @@ fn touching(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> 
     Some(posed)
 }
 
-/// Lying on a large box, by its head or its handle.
+/// A hammer that lies on a large box, by its head or its handle.
 fn on_a_slab(random: &mut Random, parts: usize, of_hulls: bool) -> Option<Posed> {
     let slab = Cuboid::from_half_extents(Vec3::new(5.0, 1.0, 5.0)).ok()?.into();
     let shapes = [slab, hammer(random, parts, of_hulls)?];
-    // The head reaches 0.1 further to the side than the handle does, 1.7 from it.
+    // The head reaches 0.1 further to the side than the handle does, at a distance of 1.7 along it.
     let lie = DVec3::new(0.06, 0.998, -0.06).normalize();
     let tilt = Quat::from_rotation_arc(DVec3::Z.as_vec3(), lie.as_vec3());
     let high = Pose3::new([random.range(-2.0, 2.0), 3.0, random.range(-2.0, 2.0)], tilt).ok()?;

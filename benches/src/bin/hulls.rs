@@ -1,7 +1,7 @@
-//! Prints how long hulls of points take beside parry3d's, in the same run: `hulls [rounds]`.
+//! Prints how long building hulls of points takes, beside parry3d in the same run: `hulls [rounds]`.
 //!
-//! Thread CPU time, the two in turns, medians. Only the ratios count. Where the true hull has more vertices than ours
-//! may have, ours is the simplified one, and the search that finds out is part of its time.
+//! Thread CPU time, both in turns, medians. Only the ratios count. Where the true hull has more vertices than ours may
+//! have, ours is the simplified one, and the search for it is part of its time.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_geometry::Hull;
@@ -9,7 +9,7 @@ use clap::Parser;
 use glam::Vec3;
 use parry3d::transformation::try_convex_hull;
 
-/// A cloud: its name, how many points, and whether they lie on the sphere or in the ball.
+/// A cloud: its name, the number of points, and whether they lie on the sphere or in the ball.
 const CLOUDS: [(&str, usize, bool); 9] = [
     ("ball", 5000, false),
     ("sphere", 5000, true),
@@ -57,7 +57,7 @@ fn main() {
     }
 }
 
-/// Points of a unit ball, by rejection, or their directions.
+/// Points in a unit ball, by rejection, or their directions.
 fn cloud(count: usize, is_sphere: bool) -> Vec<Vec3> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut next = || {

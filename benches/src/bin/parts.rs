@@ -1,7 +1,7 @@
-//! Prints what compounds of many parts cost, beside parry3d's: `parts [rounds]`.
+//! Prints the cost of compounds of many parts, beside parry3d's: `parts [rounds]`.
 //!
-//! Cubes of n x n x n boxes and balls, a fifth of a metre apart from each other, and what is asked of two of them, of a
-//! crate among their parts, and of a ray; thread CPU time a question, both sides in turns, medians.
+//! Cubes of n x n x n boxes and balls, a fifth of a metre from each other. Queries for two such cubes, for a crate
+//! among the parts of one, and for a ray; thread CPU time per query, both sides in turns, medians.
 
 use asunder_benches::clock::{Samples, time};
 use asunder_benches::parry::{self, Shapes};
@@ -15,10 +15,10 @@ use parry3d::query::{self, Ray, ShapeCastOptions};
 use parry3d::shape::SharedShape;
 use std::error::Error;
 
-/// Pairs of a row.
+/// Pairs per row.
 const PAIRS: usize = 32;
 
-/// Two bodies, here and there.
+/// Two bodies, for us and for the peer.
 struct Twins {
     shapes: [Shape3; 2],
     twins: [SharedShape; 2],
@@ -28,7 +28,7 @@ struct Twins {
 type Ours = fn(&Pair3, &Pose3) -> bool;
 type Peers = fn([&SharedShape; 2], [parry3d::math::Pose; 2]) -> bool;
 
-/// What is asked, of us and of the peer, where it has an answer.
+/// The queries, for us and for the peer, if it has such a query.
 const QUESTIONS: [(&str, Ours, Option<Peers>); 5] = [
     (
         "yes or no",
@@ -106,7 +106,7 @@ fn row([parts, name, question]: &[&str; 3], [ours, peers]: [Option<f64>; 2]) {
     println!("{parts:>6} {name:<8} {question:<10} {:>12} {:>12} {ratio:>7}", told(ours), told(peers));
 }
 
-/// Boxes and balls in turns, about the origin.
+/// Boxes and balls alternating, centred on the origin.
 fn cube_of(edge: usize) -> Result<Shape3, Box<dyn Error>> {
     let (crate_, ball) = (Cuboid::from_half_extents(Vec3::splat(0.4))?, Sphere::new(0.4)?);
     let middle = (edge - 1) as f64 * 0.5;
@@ -119,7 +119,7 @@ fn cube_of(edge: usize) -> Result<Shape3, Box<dyn Error>> {
     Ok(Compound3::new(parts)?.into())
 }
 
-/// Where the second is: brought to the first from afar, and then a decimetre on or back at most.
+/// Places the second body: brought to the first from afar, then at most a decimetre further or back.
 fn twins(shapes: [&Shape3; 2], random: &mut Random) -> Result<Twins, Box<dyn Error>> {
     let mut known = Shapes::default();
     let mut convert = |shape| known.convert(shape).ok_or("parry3d refuses the shape");
@@ -138,7 +138,7 @@ fn twins(shapes: [&Shape3; 2], random: &mut Random) -> Result<Twins, Box<dyn Err
     Ok(Twins { shapes: shapes.map(Clone::clone), twins, poses })
 }
 
-/// Nanoseconds a question, of us and of the peer.
+/// Nanoseconds per query, ours and the peer's.
 fn measure(twins: &Twins, (ours, peers): (Ours, Option<Peers>), rounds: usize) -> [Option<f64>; 2] {
     let mut samples = [Samples::default(), Samples::default()];
     let [a, b] = &twins.shapes;

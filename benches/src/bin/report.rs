@@ -1,4 +1,4 @@
-//! Makes the page of speed against error: measures, keeps the rows as CSV, draws.
+//! Makes the page of speed against error: measures, stores the rows as CSV, draws the page.
 
 use asunder_benches::report::cpu::Processor;
 use asunder_benches::report::measure::measure;
@@ -11,7 +11,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-// Frames say how often they ask for memory, and for how much.
+// Rows of frames include how often memory is allocated, and how much.
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The rows of a folder, of which there must be some.
+/// The rows of a folder, which must have some.
 fn kept_in(folder: &Path) -> Result<Data, Box<dyn Error>> {
     let data = Data::read(folder)?;
     if data == Data::default() {
@@ -72,13 +72,13 @@ fn kept_in(folder: &Path) -> Result<Data, Box<dyn Error>> {
     Ok(data)
 }
 
-/// The repository's root: results and README lie there, wherever the program is started.
+/// The repository's root, where results and README are, wherever the program is started.
 fn root() -> &'static Path {
     let benches = Path::new(env!("CARGO_MANIFEST_DIR"));
     benches.parent().unwrap_or(benches)
 }
 
-/// Measures, and keeps it if that is wanted; the folder where it is kept.
+/// Measures, and stores the data if asked to; also returns the folder where it is stored.
 fn measured(options: &Options) -> Result<(Data, Option<PathBuf>), Box<dyn Error>> {
     let mut processor = Processor::here();
     if let Some(name) = &options.cpu {
@@ -96,7 +96,7 @@ fn measured(options: &Options) -> Result<(Data, Option<PathBuf>), Box<dyn Error>
     for (i, &section) in sections.iter().enumerate() {
         let start = 100 * i as u64;
         bar.set_position(start);
-        // Who does not know how much there is left moves on by one at every word.
+        // A step that cannot tell how much is left moves the bar by one at each new text.
         let said = Mutex::new(String::new());
         let progress = |text: &str, part: Option<f64>| {
             if let Some(part) = part {
@@ -135,7 +135,7 @@ fn write_page(data: &Data, options: &Options) -> Result<(), Box<dyn Error>> {
 }
 
 fn write_readme(folder: &Path) -> Result<(), Box<dyn Error>> {
-    // As it will be read again: from the files.
+    // Read back from the files, as later runs will read it.
     let data = Data::read(folder)?;
     let (path, folder) = (root().join("README.md"), std::path::absolute(folder)?);
     let named = folder.strip_prefix(root()).map_err(|_| "README shows data of this repository alone")?;

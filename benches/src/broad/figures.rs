@@ -1,13 +1,13 @@
-//! What a row of the broad phase says besides its times.
+//! Figures of a broad-phase row besides its times.
 
 use super::memory::least_traffic;
 use crate::row::duration;
 use serde::Serialize;
 
-/// The median of one of the peer's ways to a frame.
+/// The median frame time of one of the peer's ways.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PeerTime {
-    /// How its tree is brought up to date.
+    /// How its tree is updated.
     pub mode: &'static str,
     /// Nanoseconds a frame.
     pub ns: f64,
@@ -26,15 +26,15 @@ pub struct PeerTime {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
-    /// Which of our modes was best: `sweep` starts from scratch, `coherent` keeps what rests.
+    /// The best of our modes: `sweep` starts from scratch, `coherent` keeps the pairs of resting boxes.
     pub mode: &'static str,
     /// Pairs of the last frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pairs: Option<usize>,
-    /// Our sweep alone, pairs in no order, in nanoseconds.
+    /// Our sweep alone, with unordered pairs, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep_ns: Option<f64>,
-    /// Putting the pairs in order: the whole less the sweep, in nanoseconds.
+    /// Sorting the pairs: the whole time minus the sweep, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub order_ns: Option<f64>,
     /// Our nanoseconds a box.
@@ -43,31 +43,31 @@ pub struct Figures {
     /// Our nanoseconds a pair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ns_per_pair: Option<f64>,
-    /// The time in which memory could read each box and write each pair, over our time: 1 is the bound.
+    /// The time in which memory could read each box and write each pair, divided by our time: 1 is the bound.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bound_share: Option<f64>,
-    /// Bytes a nanosecond that a large copy moves in this run, which the bound is made of.
+    /// Bytes per nanosecond that a large copy moves in this run, on which the bound is built.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub copy_bytes_per_ns: Option<f64>,
-    /// Most memory held at the end of a frame, the pair list included, in bytes a box.
+    /// The most memory held at the end of a frame, the pair list included, in bytes per box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bytes_per_box: Option<f64>,
-    /// Threads that the row's time was taken with, where it is wall-clock time.
+    /// Threads with which the row's time was taken, if it is wall-clock time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
     /// Wall-clock time on one thread, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub one_thread_ns: Option<f64>,
-    /// One thread's wall-clock time over that of the threads.
+    /// One thread's wall-clock time divided by that of all threads.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speedup: Option<f64>,
-    /// All of the peer's ways, the fastest first.
+    /// All of the peer's ways, fastest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peers: Vec<PeerTime>,
 }
 
 impl Figures {
-    /// Takes in what a frame of `ns` nanoseconds found, and the most `bytes` that were held.
+    /// Sets the figures for a frame of `ns` nanoseconds that found so many pairs and held at most `bytes` of memory.
     pub fn hold(&mut self, boxes: usize, pairs: usize, bytes: usize, ns: f64) {
         self.pairs = Some(pairs);
         self.ns_per_box = Some(ns / boxes.max(1) as f64);
@@ -75,13 +75,13 @@ impl Figures {
         self.bytes_per_box = Some(bytes as f64 / boxes.max(1) as f64);
     }
 
-    /// Holds a frame of `ns` nanoseconds against memory that moves so many bytes a nanosecond.
+    /// Compares a frame of `ns` nanoseconds with memory that moves so many bytes per nanosecond.
     pub fn hold_against(&mut self, bytes_per_ns: f64, boxes: usize, pairs: usize, ns: f64) {
         self.copy_bytes_per_ns = Some(bytes_per_ns);
         self.bound_share = Some(least_traffic(boxes, pairs) / bytes_per_ns / ns);
     }
 
-    /// Its columns of a table, under [`Figures::heading`].
+    /// The columns of a table, under [`Figures::heading`].
     pub fn to_text(&self) -> String {
         let number = |value: Option<f64>, digits: usize| {
             value.map_or_else(|| "-".to_string(), |value| format!("{value:.digits$}"))
@@ -103,7 +103,7 @@ impl Figures {
         )
     }
 
-    /// The heads of those columns.
+    /// The headings of those columns.
     ///
     /// ```
     /// use asunder_benches::broad::figures::Figures;

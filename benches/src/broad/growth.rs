@@ -1,7 +1,7 @@
-//! How the cost of a frame grows where boxes are laid out to hurt ([`asunder_scenes::hurt`]).
+//! How the cost of a frame grows for boxes laid out to make a broad phase slow ([`asunder_scenes::hurt`]).
 //!
-//! No peer takes part. A row holds our sorted list of pairs, from scratch, against a budget: what an ordinary scene
-//! costs.
+//! There is no peer. A row compares our sorted list of pairs, from scratch, with a budget: the cost of an ordinary
+//! scene.
 
 use super::size_name;
 use crate::clock::{Effort, Samples, time};
@@ -10,13 +10,13 @@ use asunder_geometry::Aabb3;
 use asunder_scenes::hurt::HurtScene;
 use serde::Serialize;
 
-/// What the budget allows a box, in nanoseconds.
+/// The budget per box, in nanoseconds.
 pub const BUDGET_A_BOX: f64 = 80.0;
 
-/// What it allows a pair, in nanoseconds.
+/// The budget per pair, in nanoseconds.
 pub const BUDGET_A_PAIR: f64 = 20.0;
 
-/// Boxes of every scene; the last only where that is asked for.
+/// Sizes of every scene; the last one on request only.
 const SIZES: [usize; 4] = [30_000, 100_000, 300_000, 1_000_000];
 
 /// One row.
@@ -30,11 +30,11 @@ pub struct GrowthRow {
     pub pairs_per_box: f64,
     /// Median nanoseconds a box.
     pub ns_per_box: f64,
-    /// The same over [`BUDGET_A_BOX`] and [`BUDGET_A_PAIR`] for every pair a box.
+    /// `ns_per_box` divided by the budget: [`BUDGET_A_BOX`], plus [`BUDGET_A_PAIR`] for every pair per box.
     pub budgets: f64,
-    /// Memory that the sweep holds, in bytes a box.
+    /// Memory held by the sweep, in bytes per box.
     pub bytes_per_box: f64,
-    /// Frames measured.
+    /// How many frames were measured.
     pub done: usize,
 }
 
@@ -57,7 +57,7 @@ pub fn name(&(scene, count): &(HurtScene, usize)) -> String {
 
 /// Measures one case on this thread. Cost: a second, or three frames.
 ///
-/// Must run where the library finds no second thread, as in a pool of one: thread time would miss it.
+/// Must run where the library finds no second thread, as in a pool of one: thread time would miss the other.
 ///
 /// ```
 /// use asunder_benches::{broad::growth, clock::Effort};
@@ -70,7 +70,7 @@ pub fn measure(case: &(HurtScene, usize), effort: &Effort) -> GrowthRow {
     let boxes: Vec<Aabb3> = scene.boxes(count, 1);
     let (mut sweep, mut pairs, mut samples) = (Sweep::new(), Vec::<PairId>::new(), Samples::default());
     for round in 0..=effort.rounds {
-        // Without a limit there is nothing to fail.
+        // Without a limit on pairs it cannot fail.
         let (ns, _) = time(|| sweep.pairs(&boxes, |_, _| true, usize::MAX, &mut pairs));
         // The first one allocates.
         if round > 0 {
@@ -94,7 +94,7 @@ pub fn measure(case: &(HurtScene, usize), effort: &Effort) -> GrowthRow {
 }
 
 impl GrowthRow {
-    /// The heads of a table.
+    /// The heading of a table.
     pub fn heading() -> String {
         let heads = ["ns/box", "pairs/box", "budgets", "B/box"].map(|head| format!("{head:>10}"));
         format!(
@@ -104,7 +104,7 @@ impl GrowthRow {
         )
     }
 
-    /// A line of it.
+    /// A line of the table.
     pub fn to_text(&self) -> String {
         let Self { row, ns_per_box, pairs_per_box, budgets, bytes_per_box, .. } = self;
         format!("{row:<28}{ns_per_box:>10.0}{pairs_per_box:>10.2}{budgets:>10.2}{bytes_per_box:>10.0}")

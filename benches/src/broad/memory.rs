@@ -3,17 +3,17 @@
 use crate::clock::time;
 use std::sync::OnceLock;
 
-/// Bytes copied by one block: more than the caches of a server hold.
+/// Bytes copied at a time: more than the caches of a server hold.
 const BLOCK: usize = 128 << 20;
 
-/// Bytes read and written in a nanosecond by one thread that copies: the best of some blocks, measured once a run, at
+/// Bytes read and written per nanosecond by one thread that copies: the best of some copies, measured once per run, at
 /// the first call. Cost: some tenths of a second, and twice [`BLOCK`] of memory.
 pub(super) fn bandwidth() -> f64 {
     static BANDWIDTH: OnceLock<f64> = OnceLock::new();
     *BANDWIDTH.get_or_init(|| {
         let words = BLOCK / size_of::<u64>();
         let from: Vec<u64> = (0..words as u64).collect();
-        // Not zero: pages that were never written are one page.
+        // Not zero: pages that were never written share one physical page.
         let mut to = vec![1_u64; words];
         let copies = (0..7).map(|_| time(|| core::hint::black_box(&mut to).copy_from_slice(&from)).0);
         let best = copies.fold(f64::INFINITY, f64::min);
@@ -21,7 +21,7 @@ pub(super) fn bandwidth() -> f64 {
     })
 }
 
-/// Bytes that a broad phase cannot avoid: it reads every box, and writes every pair.
+/// The traffic that no broad phase can avoid, in bytes: reading every box and writing every pair.
 pub(super) fn least_traffic(boxes: usize, pairs: usize) -> f64 {
     24.0 * boxes as f64 + 8.0 * pairs as f64
 }

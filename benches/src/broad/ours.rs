@@ -9,16 +9,16 @@ use asunder_geometry::Aabb3;
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-/// What a frame is found with.
+/// A mode of our broad phase.
 pub(super) enum Engine {
     /// From scratch each frame.
     Sweep(Box<Sweep>),
-    /// Keeps what rests, and is told what moved.
+    /// Keeps the pairs of resting boxes, and is given the boxes that moved.
     Coherent(Box<CoherentSweep<Aabb3>>),
 }
 
 impl Engine {
-    /// The engines worth trying.
+    /// The modes worth trying.
     pub(super) fn all(few_move: bool) -> Vec<Self> {
         let mut all = vec![Self::Sweep(Box::default())];
         if few_move {
@@ -41,7 +41,7 @@ impl Engine {
         }
     }
 
-    /// Pairs of boxes that the last frame compared; nothing where columns were cut further, or what rests was kept.
+    /// Pairs of boxes that the last frame compared; `None` where columns were split further or pairs were kept.
     pub(super) fn compared(&self) -> Option<usize> {
         match self {
             Self::Sweep(sweep) => sweep.columns().map(|column| column.candidates).sum(),
@@ -49,10 +49,10 @@ impl Engine {
         }
     }
 
-    /// What a user calls: sweep, filter, order.
+    /// What a user calls: sweep, filter and sort.
     pub(super) fn list(&mut self, frame: &Frame, pairs: &mut Vec<PairId>) {
         let admit = |a, b| frame.filter.admits(a, b);
-        // Without a limit there is nothing to fail.
+        // Without a limit on pairs it cannot fail.
         let _ = match self {
             Self::Sweep(sweep) => sweep.pairs(frame.boxes, admit, usize::MAX, pairs),
             Self::Coherent(sweep) => sweep.update(frame.boxes, frame.moved, admit, usize::MAX, pairs),
@@ -60,7 +60,7 @@ impl Engine {
     }
 }
 
-/// One of our ways to a frame's list.
+/// One mode, and its result and times.
 pub(super) struct Variant {
     pub(super) engine: Engine,
     pub(super) pairs: Vec<PairId>,
@@ -83,7 +83,7 @@ impl Variant {
 
 pub(super) struct Ours {
     variants: Vec<Variant>,
-    /// The sweep from scratch, pairs in no order.
+    /// The sweep from scratch, with unordered pairs.
     unordered: Unordered,
 }
 
@@ -91,16 +91,16 @@ struct Unordered {
     sweep: Sweep,
     pairs: Vec<PairId>,
     samples: Samples,
-    /// It took longer than a row may.
+    /// Set if it took longer than a row may.
     cut: Option<Cut>,
 }
 
-/// A sweep that was broken off.
+/// The figures of a sweep that was aborted.
 #[derive(Clone, Copy)]
 pub(super) struct Cut {
-    /// What it had taken by then, and what all would have taken at that rate, in nanoseconds.
+    /// The time it had taken by then, and the extrapolated time of the whole, in nanoseconds.
     pub(super) time: Spread,
-    /// All pairs of the frame, if a peer has told; else those that were found.
+    /// All pairs of the frame, if known from a peer; else those found so far.
     pub(super) pairs: usize,
 }
 
@@ -122,7 +122,7 @@ impl Ours {
         }
     }
 
-    /// One frame of every variant that has time left, in turns as to which is first and finds cold caches.
+    /// One frame of each variant that has time left; which one comes first, and finds cold caches, alternates.
     pub(super) fn frame(&mut self, frame: &Frame, expected: Option<usize>, limit: f64, row: &mut Row) {
         if self.is_done(limit) {
             return;
@@ -150,12 +150,12 @@ impl Ours {
         }
     }
 
-    /// What was measured of each mode, unless the sweep was broken off.
+    /// The samples of each mode, unless the sweep was aborted.
     pub(super) fn variants(&self) -> &[Variant] {
         if self.unordered.cut.is_some() { &[] } else { &self.variants }
     }
 
-    /// Where the sweep was broken off, if it was.
+    /// Where the sweep was aborted, if it was.
     pub(super) fn cut(&self) -> Option<Cut> {
         self.unordered.cut
     }
@@ -203,12 +203,12 @@ impl Unordered {
         ));
     }
 
-    /// The sweep alone, into a list without order, broken off when its time is up. Returns its nanoseconds.
+    /// The sweep alone, into an unordered list, aborted when its time is up. Returns its nanoseconds.
     fn visit(&mut self, frame: &Frame, limit: f64) -> (f64, ControlFlow<()>) {
         let start = Instant::now();
         let pairs = &mut self.pairs;
         pairs.clear();
-        // Twice the time of a variant: so much more than that would not fit a second frame anyhow.
+        // Twice the time of a variant: if it takes more, a second frame would not fit anyhow.
         let limit = 2e-9 * limit;
         time(|| {
             self.sweep.visit(

@@ -1,15 +1,15 @@
 //! parry3d's side of the broad phase: all overlapping pairs by its `Bvh`.
 //!
-//! - *incremental*: leaves in place, `optimize_incremental`, `refit`, whole traversal, as rapier drives it when
-//!   many move.
-//! - *rebuild*: leaves in place, then the whole tree anew, binned, and the whole traversal.
-//! - *changes*: as incremental, but only pairs of changed leaves are looked for; the rest of last frame's list is kept.
-//! - *reinsert*: moved leaves are taken out and put in again, `refit_partial`; pairs as in changes. As rapier drives it
-//!   when few move.
-//! - *split*: what is fixed in a tree of its own, which every mover asks.
+//! - *incremental*: leaves in place, `optimize_incremental`, `refit`, whole traversal, as rapier does when many move.
+//! - *rebuild*: leaves in place, then the whole tree rebuilt (binned), and the whole traversal.
+//! - *changes*: as incremental, but only pairs of changed leaves are searched; the rest of the last frame's list is
+//!   kept.
+//! - *reinsert*: moved leaves are removed and reinserted, `refit_partial`; pairs as in changes. As rapier does when few
+//!   move.
+//! - *split*: fixed boxes in a tree of their own, which every moving box queries.
 //!
-//! With *4 cm* leaves are made larger by rapier's usual margin, and rest while their boxes stay within. Such a tree
-//! hands over candidates, whose boxes are tested once more, so that every way has the same pairs.
+//! With *4 cm*, leaves are enlarged by rapier's usual margin, and stay as they are while their boxes stay inside. Such
+//! a tree returns candidates, whose boxes are tested once more, so that every way has the same pairs.
 
 use super::Filter;
 use super::figures::PeerTime;
@@ -32,24 +32,24 @@ enum Update {
 
 use Update::{Changes, Incremental, Rebuild, Reinsert, Split};
 
-/// Ways to a frame where anything may move, and those besides where few do; with the usual margin or without.
+/// The ways where anything may move, and those added where few do; each with the usual margin or without.
 ///
-/// Tried where all move, gas, city, pile, islands and tower of 1k and 10k: changes are 3 to 19 % slower than
+/// Tried where all move, on gas, city, pile, islands and tower of 1k and 10k: changes is 3 to 19 % slower than
 /// incremental, changes with a margin 15 to 36 %, reinsert two to nine times (AMD EPYC, 2026-11-21).
 const ALWAYS: [(Update, bool); 4] =
     [(Incremental, false), (Incremental, true), (Rebuild, false), (Rebuild, true)];
 const WHERE_FEW_MOVE: [(Update, bool); 4] =
     [(Changes, false), (Changes, true), (Reinsert, false), (Reinsert, true)];
-/// Where a tenth of a million boxes jump anywhere. Ways that mend the tree in place have no end there: a frame of
-/// 100,000 boxes takes them 1.5 to 2.2 s, thirty times what rebuilding takes, one of 10,000 a twentieth of that (AMD
-/// EPYC (Zen 4), 2026-11-22).
+/// For a tenth of a million boxes that jump to random places. Ways that repair the tree in place do not finish there: a
+/// frame of 100,000 boxes takes them 1.5 to 2.2 s, thirty times as long as rebuilding, and one of 10,000 a twentieth of
+/// that (AMD EPYC (Zen 4), 2026-11-22).
 const WHERE_MANY_JUMP: [(Update, bool); 4] =
     [(Rebuild, false), (Rebuild, true), (Reinsert, false), (Reinsert, true)];
-/// Whole traversals of a million boxes are beside the point where a hundred move.
+/// Whole traversals of a million boxes are pointless where a hundred move.
 const WHERE_MOST_ARE_FIXED: [(Update, bool); 5] =
     [(Changes, false), (Changes, true), (Reinsert, false), (Reinsert, true), (Split, false)];
 
-/// What a row says of ways that are left out, as they would not end.
+/// The remark of a row on ways that are left out because they would not finish.
 pub(super) fn leaves_out(scene: BoxScene, count: usize) -> Option<&'static str> {
     (scene == BoxScene::Teleport && count >= 1_000_000).then_some(
         "parry3d by rebuilding and by reinserting alone: to mend its tree in place takes minutes a frame",
@@ -60,22 +60,22 @@ pub(super) struct Peer {
     update: Update,
     has_margin: bool,
     tree: Bvh,
-    /// Fixed boxes, where they are apart.
+    /// Fixed boxes, if they have a tree of their own.
     fixed: Bvh,
     workspace: BvhWorkspace,
-    /// Frame in which a leaf last changed.
+    /// For each leaf, the frame in which it last changed.
     changed_in: Vec<u32>,
-    /// Leaves that changed in this frame, and in the one before.
+    /// Leaves that changed in this frame, and in the previous one.
     changed: [Vec<u32>; 2],
     frame: u32,
-    /// Pairs of leaves, where leaves are larger than boxes.
+    /// Pairs of leaves, if leaves are larger than boxes.
     candidates: Vec<(u32, u32)>,
     pairs: Vec<(u32, u32)>,
     pub(super) samples: Samples,
 }
 
 impl Peer {
-    /// Every way that may be the best.
+    /// Every way that might be the best.
     pub(super) fn all(scene: BoxScene, boxes: &[Aabb], filter: &Filter, few_move: bool) -> Vec<Self> {
         let ways: Vec<(Update, bool)> = match (scene, few_move) {
             (BoxScene::Still, _) => WHERE_MOST_ARE_FIXED.to_vec(),
@@ -113,7 +113,7 @@ impl Peer {
             samples: Samples::default(),
         };
         peer.traverse::<false>(filter);
-        // New leaves are marked as changed until the next refit.
+        // New leaves count as changed until the next refit.
         peer.tree.refit(&mut peer.workspace);
         if has_margin {
             peer.candidates.clone_from(&peer.pairs);
@@ -155,7 +155,7 @@ impl Peer {
                 self.find_all(boxes, filter);
             }
             Changes => {
-                // A margin that is lost in rounding marks leaves as changed without making them larger.
+                // A margin that is lost in rounding: it marks leaves as changed without enlarging them.
                 self.move_leaves(moved, boxes, f32::MIN_POSITIVE);
                 self.tree.optimize_incremental(&mut self.workspace);
                 self.tree.refit(&mut self.workspace);
@@ -173,7 +173,7 @@ impl Peer {
         self.pairs.len()
     }
 
-    /// Moves leaves in place: by the usual margin if that is this peer's way, else by the one given.
+    /// Moves leaves in place: with the usual margin if this way has one, else with the given one.
     fn move_leaves(&mut self, moved: &[u32], boxes: &[Aabb], least: f32) {
         let margin = if self.has_margin { USUAL_MARGIN } else { least };
         for &i in moved {
@@ -210,7 +210,7 @@ impl Peer {
         });
     }
 
-    /// Keeps the pairs of leaves that did not change, finds those of leaves that did.
+    /// Keeps the pairs of unchanged leaves, and finds those of changed leaves.
     fn follow_changes(&mut self, boxes: &[Aabb], filter: &Filter) {
         if self.has_margin {
             core::mem::swap(&mut self.pairs, &mut self.candidates);

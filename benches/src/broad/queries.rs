@@ -1,6 +1,6 @@
-//! Questions to a structure of boxes that rest: our index beside parry3d's `Bvh`, both built once.
+//! Queries to a structure of resting boxes: our index beside parry3d's `Bvh`, both built once.
 //!
-//! A row is a thousand questions; its time is for one. Both sides must give the same answers.
+//! A row is a thousand queries; its time is per query. Both sides must give the same answers.
 
 use super::size_name;
 use crate::clock::{Effort, time};
@@ -17,24 +17,24 @@ use parry3d::bounding_volume::Aabb;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
 use parry3d::query::{PointQuery, Ray, RayCast};
 
-/// Questions in a row.
+/// Queries per row.
 const QUESTIONS: usize = 1000;
 
-/// What is asked.
+/// The kind of query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// The first box that a ray meets.
+    /// The first box hit by a ray.
     RayFirst,
-    /// All boxes that a ray crosses, in order of distance.
+    /// All boxes crossed by a ray, in order of distance.
     RayAll,
-    /// All boxes that overlap a box, whose sides are 1 to 5 m, in no order.
+    /// All boxes that overlap a box with sides of 1 to 5 m, in no order.
     Overlap,
     /// The box nearest to a point.
     Nearest,
 }
 
 impl Question {
-    /// Every question, in the order in which results are listed.
+    /// Every query, in the order in which results are listed.
     pub const ALL: [Self; 4] = [Self::RayFirst, Self::RayAll, Self::Overlap, Self::Nearest];
 
     /// The name used in result rows.
@@ -48,7 +48,7 @@ impl Question {
     }
 }
 
-/// One row: boxes, and what they are asked.
+/// One row: the boxes, and the query.
 pub type Case = (BoxScene, usize, Question);
 
 /// Every row.
@@ -75,7 +75,7 @@ pub fn name(&(scene, count, question): &Case) -> String {
     format!("query/{}/{}/{}", scene.name(), size_name(count), question.name())
 }
 
-/// Measures one row, on one thread. Cost: about a second a side, and the building of both structures.
+/// Measures one row, on one thread. Cost: about a second per side, and the building of both structures.
 ///
 /// ```
 /// use asunder_benches::{broad::queries::{Question, measure}, clock::Effort};
@@ -105,7 +105,7 @@ pub fn measure(case: &Case, effort: &Effort) -> Row {
     row
 }
 
-/// The questions, with random places all over the boxes.
+/// The queries, at random places all over the boxes.
 struct Asked {
     rays: Vec<Ray>,
     regions: Vec<Aabb>,
@@ -132,13 +132,13 @@ impl Asked {
     }
 }
 
-/// What all answers of a row add up to.
+/// The sum of all answers of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Found {
     /// Boxes.
     count: usize,
-    /// Sum of what was read, so that nothing is left out and both sides can be compared: of the boxes' numbers, each
-    /// times its place in the answer where there is an order.
+    /// A checksum that reads every answer, so that nothing is optimised away and both sides can be compared: the sum of
+    /// the boxes' numbers, each times its place in the answer where there is an order.
     checksum: u64,
 }
 
@@ -150,7 +150,7 @@ impl Found {
 }
 
 impl Found {
-    /// Of several boxes at distance 0, any is first.
+    /// If several boxes are at distance 0, any of them may come first.
     fn push_first(&mut self, number: u32, distance: f64) {
         self.push(if distance > 0.0 { number } else { 0 }, 0);
     }
@@ -167,7 +167,7 @@ struct Ours {
 impl Ours {
     fn new(boxes: &[Aabb3]) -> Self {
         let mut index = Index::new();
-        // The second time, memory is there.
+        // The second build is timed: memory is allocated by then.
         index.build(boxes);
         let (ns, ()) = time(|| index.build(boxes));
         let built_ns = ns / boxes.len().max(1) as f64;
@@ -239,7 +239,7 @@ impl Peer {
         }
     }
 
-    /// A leaf is its box, so that the test of nodes is that of boxes.
+    /// A leaf is its box, so the test of nodes is also the test of boxes.
     fn ray_all(&mut self, ray: &Ray, found: &mut Found) {
         let hits = &mut self.hits;
         hits.clear();

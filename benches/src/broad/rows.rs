@@ -1,4 +1,4 @@
-//! The same measurements as plain rows, a variant a row, for the report.
+//! The same measurements as plain rows, one per variant, for the report.
 
 use super::memory::{bandwidth, least_traffic};
 use super::{Case, run, threads};
@@ -7,7 +7,7 @@ use crate::row::Row;
 use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
 
-/// One way to a frame's pairs.
+/// One way to find a frame's pairs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BroadRow {
     /// The scene's name.
@@ -16,15 +16,15 @@ pub struct BroadRow {
     pub boxes: u64,
     /// `asunder`, `parry3d`, or `memory`, which only reads boxes and writes pairs.
     pub method: String,
-    /// Which of the method's ways.
+    /// The variant of the method.
     pub variant: String,
-    /// Threads that worked.
+    /// How many threads worked.
     pub threads: u64,
-    /// `thread`: CPU time of the one thread; `wall`: by the clock on the wall.
+    /// `thread`: CPU time of the one thread; `wall`: wall-clock time.
     pub clock: String,
-    /// Frames that were measured.
+    /// How many frames were measured.
     pub frames: u64,
-    /// Pairs of the last frame.
+    /// How many pairs the last frame has.
     pub pairs: u64,
     /// Median time of a frame, in nanoseconds.
     pub ns: f64,
@@ -32,16 +32,16 @@ pub struct BroadRow {
     pub ns_low: f64,
     /// Its upper quartile.
     pub ns_high: f64,
-    /// Most memory held at the end of a frame, in bytes a box, the list of pairs included; 0 where nobody counted.
+    /// The most memory held at the end of a frame, in bytes per box, the list of pairs included; 0 if not counted.
     pub bytes_per_box: f64,
-    /// Pairs of boxes that a frame compared to find its pairs, where that was counted; else 0.
+    /// How many pairs of boxes a frame compared to find its pairs; 0 if not counted.
     #[serde(default)]
     pub compared: u64,
-    /// The way took too long and was broken off in its first frame: its lower quartile is what that had taken, its
-    /// median and its upper quartile are extrapolated.
+    /// Whether the way took too long and was aborted in its first frame: its lower quartile is then the time until that
+    /// point, and its median and upper quartile are extrapolated.
     #[serde(default)]
     pub is_cut: bool,
-    /// Whether variants found different pairs, or one was broken off.
+    /// Notes that variants found different pairs, or that one was aborted.
     pub note: String,
 }
 
@@ -67,7 +67,7 @@ impl BroadRow {
     }
 }
 
-/// Measures one case on one thread, as [`super::measure`] does: ours, the peer's, and what memory would take.
+/// Measures one case on one thread, as [`super::measure`] does: our variants, the peer's, and what memory would take.
 ///
 /// ```
 /// use asunder_benches::{broad::rows, clock::Effort};
@@ -105,10 +105,10 @@ pub fn one_thread(case: &Case, effort: &Effort) -> Vec<BroadRow> {
     rows
 }
 
-/// Measures our best mode on one thread and on several, by the clock on the wall, as [`threads::measure`] does.
+/// Measures our best mode on one thread and on several, in wall-clock time, as [`threads::measure`] does.
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start the threads.
 ///
 /// ```
 /// use asunder_benches::{broad::rows, clock::Effort};
@@ -155,7 +155,7 @@ mod tests {
         for scene in BoxScene::ALL {
             let rows = one_thread(&(scene, 3000), &effort);
             let ours = rows.iter().find(|row| row.variant == "sweep").unwrap();
-            // Clumps are swept in columns of their own.
+            // Clusters are swept in columns of their own, which are not counted.
             let is_told = scene != BoxScene::Islands;
             assert!(ours.compared >= ours.pairs || !is_told, "{ours:?}");
             assert!(ours.pairs > 0 && !ours.is_cut, "{ours:?}");

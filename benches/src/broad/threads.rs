@@ -1,4 +1,4 @@
-//! Several threads over one, by the clock on the wall: the time of one thread would miss the others.
+//! Several threads compared with one, in wall-clock time, since CPU time of one thread would miss the others.
 
 use super::figures::Figures;
 use super::ours::{Engine, Variant};
@@ -10,13 +10,13 @@ use asunder_broad::PairId;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::Instant;
 
-/// Measures our broad phase on one thread and on several, in turns, in [`blocks`](crate::blocks) of frames. No peer
-/// takes part.
+/// Measures our broad phase on one thread and on several, in turns, in [`blocks`](crate::blocks) of frames. There is no
+/// peer.
 ///
-/// The row's time is that of our best mode on all threads. Cost: about a second a mode and number of threads.
+/// The row's time is that of our best mode on all threads. Cost: about a second per mode and number of threads.
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start the threads.
 ///
 /// ```
 /// use asunder_benches::{broad::threads, clock::Effort};
@@ -35,7 +35,7 @@ pub fn measure(case: &Case, threads: usize, effort: &Effort) -> Result<Row, Thre
     Ok(row)
 }
 
-/// What both numbers of threads took; where their lists differ, the row says so.
+/// The samples of both numbers of threads; notes in the row where their lists differ.
 pub(super) fn run(
     case: &Case,
     threads: usize,
@@ -46,7 +46,7 @@ pub(super) fn run(
     let mut sides = [Side::new(1, case)?, Side::new(threads, case)?];
     let limit = nanoseconds(count, effort);
     for block in blocks(frames(count, effort)) {
-        // In turns as to which is first, too.
+        // Which side comes first also alternates.
         for who in [0, 1].map(|turn| (block.number + turn) % 2) {
             sides[who].play(&block);
         }
@@ -78,7 +78,7 @@ pub(super) struct Side {
     pool: ThreadPool,
     stage: Stage,
     variants: Vec<Variant>,
-    /// Of each frame of the last block, what each mode's list comes to.
+    /// For each frame of the last block, a digest of each mode's list.
     found: Vec<Vec<u64>>,
 }
 
@@ -90,7 +90,7 @@ impl Side {
         Ok(Self { pool, stage, variants, found: Vec::new() })
     }
 
-    /// The clock runs within the pool: what it takes to enter one is not ours.
+    /// The clock runs inside the pool: entering a pool is not our cost.
     fn play(&mut self, block: &Block) {
         spread(&self.pool);
         self.found.clear();
@@ -107,13 +107,13 @@ impl Side {
         }
     }
 
-    /// Whether all modes of both found the same in a frame of the last block.
+    /// Whether all modes of both sides found the same in a frame of the last block.
     fn agree([one, many]: &[Self; 2], frame: usize) -> bool {
         let first = one.found[frame][0];
         one.found[frame].iter().chain(&many.found[frame]).all(|&found| found == first)
     }
 
-    /// Time of the slowest mode.
+    /// The time of the slowest mode.
     fn spent(&self) -> f64 {
         self.variants.iter().map(|variant| variant.samples.spent()).fold(0.0, f64::max)
     }
@@ -124,14 +124,14 @@ impl Side {
     }
 }
 
-/// A number that lists of other pairs, or in another order, hardly share: FNV-1a, word by word.
+/// A digest of a list and its order: FNV-1a, word by word.
 fn digest(pairs: &[PairId]) -> u64 {
     pairs.iter().fold(0xcbf2_9ce4_8422_2325, |hash, pair| {
         (hash ^ (u64::from(pair.a) << 32 | u64::from(pair.b))).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
-/// Nanoseconds that a call takes by the clock on the wall.
+/// The wall-clock time of a call, in nanoseconds.
 fn wall(call: impl FnOnce()) -> f64 {
     let start = Instant::now();
     call();

@@ -6,17 +6,18 @@ use asunder_scenes::random::Random;
 use core::f32::consts::FRAC_1_SQRT_2;
 use glam::{DVec3, IVec3, Quat, Vec3};
 
-/// Half extents of the bricks, twice as long as wide: decimals, of which an f32 is larger or smaller.
+/// Half extents of the bricks, which are twice as long as wide: decimals, which an f32 rounds up or down.
 const HALF_EXTENTS: [Vec3; 2] = [Vec3::new(0.2, 0.1, 0.05), Vec3::new(0.35, 0.175, 0.1)];
 
 /// Cells of a wall along each axis. A cell holds two bricks side by side.
 const CELLS: i32 = 6;
 
-/// `count` pairs of bricks whose boxes touch, drawn from four walls.
+/// `count` pairs of bricks whose AABBs overlap, drawn from four walls.
 ///
-/// A wall is made of square cells of two bricks, every other cell turned by a quarter. In two walls the pitch is
-/// exactly twice the stored half extents, so that neighbours share faces, edges and corners and nothing else. In
-/// the other two it is the decimal that was meant, and neighbours miss or overlap by the rounding of an f32.
+/// A wall consists of square cells of two bricks; every other cell is turned by a quarter. In two walls the pitch is
+/// exactly twice the stored half extents, so that neighbours share faces, edges and corners and nothing else. In the
+/// other two it is the decimal that was intended, so that neighbours have a gap or an overlap of the rounding of an
+/// f32.
 ///
 /// ```
 /// use asunder_benches::certain::bricks;
@@ -35,7 +36,7 @@ pub fn bricks(count: usize, seed: u64) -> Vec<PosedPair3> {
     (0..count).map(|_| draw(&mut random)).collect()
 }
 
-/// All pairs of a wall whose boxes overlap.
+/// All pairs of a wall whose AABBs overlap.
 fn neighbours(half: Vec3, is_exact: bool) -> Vec<PosedPair3> {
     let shape = Shape3::from(Cuboid::from_half_extents(half).expect("a brick is no plate"));
     let poses = wall(half, is_exact);
@@ -53,11 +54,11 @@ fn neighbours(half: Vec3, is_exact: bool) -> Vec<PosedPair3> {
 }
 
 fn wall(half: Vec3, is_exact: bool) -> Vec<Pose3> {
-    // A small whole number times an f32 is exact in f64. A decimal of four digits is found again by rounding.
+    // A small whole number times an f32 is exact in f64. A decimal of four digits is restored by rounding.
     let decimal = |x: f64| (x * 1e4).round() / 1e4;
     let half = half.as_dvec3();
     let half = if is_exact { half } else { half.map(decimal) };
-    // A quarter turn, exact whatever the length: both components have the same bits.
+    // A quarter turn, exact for any length of the quaternion: both components have the same bits.
     let quarter = Quat::from_xyzw(0.0, 0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2);
     let mut poses = Vec::new();
     for index in 0..CELLS * CELLS * CELLS {
@@ -95,7 +96,7 @@ mod tests {
     fn neighbours_of_a_wall_of_decimals_miss_or_overlap() {
         let is_apart = |pair: &PosedPair3| pair.relation() == Relation::Apart;
         let [long, short] = HALF_EXTENTS.map(|half| neighbours(half, false));
-        // 0.1 and 0.05 round up as f32, 0.35 and 0.175 down.
+        // As f32, 0.1 and 0.05 round up, 0.35 and 0.175 down.
         assert!(long.iter().step_by(37).all(|pair| !is_apart(pair)));
         assert!(short.iter().step_by(37).any(is_apart));
     }

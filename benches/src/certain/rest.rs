@@ -1,4 +1,4 @@
-//! Faces on faces, sunk by a chosen share of the size.
+//! Faces on faces, with an overlap of a chosen share of the size.
 
 use asunder_geometry::{Pose2, Pose3, Rotation2, Shape2, Shape3};
 use asunder_scenes::pairs::{PlaneKind, PosedPair2, PosedPair3, SolidKind, polygons, solids};
@@ -10,7 +10,7 @@ const DISTINCT: usize = 16;
 
 const IN_RANGE: &str = "finite and near by construction";
 
-/// `count` pairs of solids, a face of B on a face of A, sunk by `sunk` of the pair's size.
+/// `count` pairs of solids, a face of B on a face of A, with an overlap of `sunk` times the pair's size.
 ///
 /// ```
 /// use asunder_benches::certain::rest3;
@@ -30,7 +30,7 @@ pub fn rest3(kind: SolidKind, sunk: f64, count: usize, seed: u64) -> Vec<PosedPa
         .collect()
 }
 
-/// A solid, with the broader half of its faces: bodies do not come to rest on slivers.
+/// A solid, with the larger half of its faces: bodies do not come to rest on slivers.
 struct Solid {
     shape: Shape3,
     faces: Vec<Face>,
@@ -60,7 +60,7 @@ impl Solid {
         Self { shape, faces }
     }
 
-    /// The greatest height of the shape along an axis, about its own position.
+    /// The greatest height of the shape's points along an axis, relative to its position.
     fn reach(&self, pose: &Pose3, axis: DVec3) -> f64 {
         let (core, basis) = (self.shape.core(), pose.basis());
         let heights = core.vertices().iter().map(|v| basis.turn(v.as_dvec3()).dot(axis));
@@ -73,11 +73,11 @@ fn stacked3(a: &Solid, b: &Solid, sunk: f64, random: &mut Random) -> PosedPair3 
     let pose_a = Pose3::new(at, random.rotation()).expect(IN_RANGE);
     let (face_a, face_b) = (a.faces[random.below(a.faces.len())], b.faces[random.below(b.faces.len())]);
     let up = pose_a.basis().turn(face_a.normal).normalize();
-    // Any rotation, and then the least one that brings B's face down: a random spin.
+    // A random rotation, then the smallest one that turns B's face down: so its spin is random.
     let spin = random.rotation().as_dquat().normalize();
     let turn = DQuat::from_rotation_arc((spin * face_b.normal).normalize(), -up) * spin;
     let rotation: Quat = turn.as_quat();
-    // What the stored rotations make of the shapes decides how high B lies.
+    // B's height follows from the shapes under the rotations as stored.
     let turned_b = Pose3::new(DVec3::ZERO, rotation).expect(IN_RANGE);
     let size = f64::from(a.shape.outer_radius()) + f64::from(b.shape.outer_radius());
     let height = a.reach(&pose_a, up) + b.reach(&turned_b, -up) - sunk * size;
@@ -92,7 +92,7 @@ fn stacked3(a: &Solid, b: &Solid, sunk: f64, random: &mut Random) -> PosedPair3 
     }
 }
 
-/// `count` pairs in the plane, an edge of B on an edge of A, sunk by `sunk` of the pair's size.
+/// `count` pairs in the plane, an edge of B on an edge of A, with an overlap of `sunk` times the pair's size.
 ///
 /// ```
 /// use asunder_benches::certain::rest2;
@@ -111,7 +111,7 @@ pub fn rest2(kind: PlaneKind, sunk: f64, count: usize, seed: u64) -> Vec<PosedPa
         .collect()
 }
 
-/// A random edge: its middle, half of it as a vector, and its outward unit normal.
+/// A random edge: its midpoint, half of it as a vector, and its outward unit normal.
 fn edge(shape: &Shape2, random: &mut Random) -> (DVec2, DVec2, DVec2) {
     let core = shape.core();
     let vertices = core.vertices();

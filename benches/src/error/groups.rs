@@ -1,17 +1,17 @@
-//! Groups of pairs, and the truth about each.
+//! Groups of pairs for the comparison of methods.
 //!
 //! | group | space | plane |
 //! |---|---|---|
-//! | random-mixed | what a broad phase hands over, 40 % apart: cuboids, wedges and cylinders, hulls of 8 and of 16 vertices, a quarter each | rectangles, polygons of 8 |
-//! | resting | face on face, sunk by 1e-3 to 1e-7 of size | edge on edge, the same |
-//! | near-touching | faces, edges and vertices 1e-3 of size to nothing apart or sunk | edges and vertices, the same |
+//! | random-mixed | pairs as from a broad phase, 40 % apart: cuboids, wedges and cylinders, hulls of 8 and of 16 vertices, a quarter each | rectangles, polygons of 8 |
+//! | resting | face on face, with an overlap of 1e-3 to 1e-7 of size | edge on edge, the same |
+//! | near-touching | faces, edges and vertices, gap or overlap of 1e-3 of size to zero | edges and vertices, the same |
 //! | parallel-edges | an edge along an edge, at 1e-2 rad to none | the same |
 //! | slivers | needles, plates, faces nearly in one plane, near touching | needles |
 //! | far | near touching, 100 m to 1e9 m from the origin | the same |
 //! | tiny-and-huge | near touching, 1e-6 m to 1e6 m, and one beside the other | the same |
 //!
-//! All but the first come from the hard families of `asunder_scenes`, of which only sharp convex shapes with an inside
-//! and at most 24 vertices are taken: what all methods can be asked about.
+//! All but the first come from the hard families of `asunder_scenes`, from which only sharp convex shapes with an
+//! interior and at most 24 vertices are taken: those that all methods accept.
 
 use asunder_geometry::{Shape2, Shape3};
 use asunder_scenes::hard::{Family2, Family3};
@@ -21,13 +21,13 @@ use asunder_scenes::pairs::{PairSet, PlaneKind, PosedPair2, PosedPair3, SolidKin
 pub(super) const GROUPS: [&str; 7] =
     ["random-mixed", "resting", "near-touching", "parallel-edges", "slivers", "far", "tiny-and-huge"];
 
-/// Vertices that a shape may have: of more, the textbook would take a millisecond.
+/// The most vertices of a shape: with more, the textbook would take a millisecond.
 const VERTICES: usize = 24;
 
-/// Hard cases that are looked at for one that is taken, at most.
+/// The most hard cases that are generated for each one that is taken.
 const TRIES: usize = 20;
 
-/// Whether a shape is sharp, convex, and has an inside.
+/// Whether a shape is sharp, convex, and has an interior.
 pub(super) fn is_sharp3(shape: &Shape3) -> bool {
     let is_solid = match shape {
         Shape3::Cuboid(_) => true,
@@ -37,14 +37,14 @@ pub(super) fn is_sharp3(shape: &Shape3) -> bool {
     is_solid && shape.radius() == 0.0 && shape.outer_radius() > 0.0
 }
 
-/// Whether a shape in the plane is sharp, convex, and has an inside.
+/// Whether a shape in the plane is sharp, convex, and has an interior.
 pub(super) fn is_sharp2(shape: &Shape2) -> bool {
     matches!(shape, Shape2::Rect(_) | Shape2::Polygon(_))
         && shape.radius() == 0.0
         && shape.outer_radius() > 0.0
 }
 
-/// Pairs of a dimension, by group.
+/// Pairs of one dimension, in groups.
 pub(super) trait Grouped: Sized + Clone {
     /// The name of the dimension in rows.
     const DIMENSION: &'static str;
@@ -52,13 +52,13 @@ pub(super) trait Grouped: Sized + Clone {
     fn group(name: &str, count: usize, seed: u64) -> Vec<Self>;
 }
 
-/// Sets one pair after the other, as many of each.
+/// Interleaves sets, with equally many pairs of each.
 fn in_turns<P: Clone>(sets: &[Vec<P>]) -> Vec<P> {
     let length = sets.iter().map(Vec::len).min().unwrap_or(0);
     (0..length).flat_map(|i| sets.iter().map(move |set| set[i].clone())).collect()
 }
 
-/// The first `count` pairs of a family that are taken.
+/// The first `count` pairs of a family that pass the test.
 fn taken<P>(count: usize, family: impl Fn(usize) -> Vec<P>, is_taken: impl Fn(&P) -> bool) -> Vec<P> {
     let mut tries = 2;
     loop {

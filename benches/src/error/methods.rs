@@ -1,4 +1,4 @@
-//! The methods: each is asked "apart, or how deep?" about some pairs that it has in its own form.
+//! The methods: each is asked "apart, or how deep?" about pairs in a form of its own.
 
 use super::textbook::{Body, Forms, Number, World};
 use asunder_geometry::{Shape2, Shape3};
@@ -7,7 +7,7 @@ use asunder_scenes::pairs::{PosedPair2, PosedPair3};
 use asunder_tests::report::peers::{Contact, double, single, unless_panic};
 use core::cell::RefCell;
 
-/// A question by itself, where cost is measured alone.
+/// One query, whose cost is measured alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Operation {
     /// Do they overlap?
@@ -31,21 +31,21 @@ impl Operation {
     }
 }
 
-/// What a method says of a pair.
+/// A method's answer about a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Said {
     /// They share no point.
     Apart,
-    /// They share a point; it does not say how deep.
+    /// They share a point; the depth is not given.
     Touching,
-    /// They share a point, and their separation is this, in metres: no more than 0.
+    /// They share a point, with this separation in metres, which is at most 0.
     Deep(f64),
     /// A NaN, a panic, or no answer.
     Refused,
 }
 
 impl Said {
-    /// A separation, where there is one; above zero it is a gap.
+    /// A separation as an answer; above zero it is a gap.
     fn deep(separation: Option<f64>) -> Self {
         match separation {
             Some(separation) if separation.is_nan() => Self::Refused,
@@ -63,7 +63,7 @@ impl Said {
     }
 }
 
-/// Some pairs in a method's own form. What is timed is what is judged.
+/// Pairs in a method's own form. The calls that are timed are those that are judged.
 pub(super) trait Prepared {
     /// Appends an answer for each pair, in order.
     fn say(&self, said: &mut Vec<Said>);
@@ -73,11 +73,11 @@ pub(super) trait Prepared {
 pub(super) struct Method<P> {
     /// The name in rows.
     pub(super) name: &'static str,
-    /// Takes over some pairs, beforehand.
+    /// Converts pairs, before they are timed.
     pub(super) prepare: fn(&[P]) -> Box<dyn Prepared + '_>,
 }
 
-/// One by one, by what is asked of each. A panic is an answer: nothing that it leaves behind is looked at again.
+/// Pairs queried one by one. A panic counts as an answer: nothing that it leaves behind is used again.
 struct OneByOne<Q, F>(Vec<Q>, F);
 
 impl<Q, F: Fn(&Q) -> Said> Prepared for OneByOne<Q, F> {
@@ -117,7 +117,7 @@ fn of_separation2(found: &Separation2) -> Said {
     }
 }
 
-/// Cuboids go eight at a time, whatever stands between them.
+/// All pairs in one call: cuboids go eight at a time, whatever is between them.
 struct AtOnce<'a>(&'a [PosedPair3], RefCell<Vec<Separation3>>);
 
 impl Prepared for AtOnce<'_> {
@@ -145,7 +145,7 @@ fn textbook3<T: Number + 'static>(pairs: &[PosedPair3]) -> Box<dyn Prepared + '_
     })
 }
 
-/// Both shapes of a pair as the textbook has them.
+/// Both shapes of a pair in the textbook's form.
 pub(super) fn bodies3<'a, T: Number>(
     pair: &'a PosedPair3,
     forms: &mut Forms<'a, Shape3, T, 3>,
@@ -168,14 +168,14 @@ fn textbook2<T: Number + 'static>(pairs: &[PosedPair2]) -> Box<dyn Prepared + '_
     })
 }
 
-/// Pairs that the peer has, and what is asked of each; it refuses the others.
+/// Pairs in the peer's form, and the query for each; pairs that it does not accept are refused.
 macro_rules! twins {
     ($peer:ident, $ask:expr) => {
         |pairs| one_by_one($peer::Twins::all(pairs), |twins| twins.as_ref().map_or(Said::Refused, $ask))
     };
 }
 
-/// The same for contact points, anew for each pair, in memory that is kept.
+/// The same for contact points, computed anew for each pair, in memory that is reused.
 macro_rules! manifolds {
     ($peer:ident) => {
         |pairs| {
@@ -224,11 +224,11 @@ const PARRY: [Method<PosedPair3>; 2] = [
     Method { name: "parry-f64", prepare: twins!(double, |twins| Said::of_peer(twins.contact())) },
 ];
 
-/// Pairs that can be asked about, by all methods of their dimension.
+/// Pairs that can be queried by all methods of their dimension.
 pub(super) trait Asked: Sized + 'static {
     /// Every method, in the order in which results are listed, asked "apart, or how deep?".
     fn methods() -> Vec<Method<Self>>;
-    /// The same for one question alone, of shapes of so many vertices; the textbook is left out where it would take
+    /// The methods for one query alone, on shapes of so many vertices; the textbook is left out where it would take
     /// long.
     fn methods_for(operation: Operation, vertices: usize) -> Vec<Method<Self>>;
 }

@@ -1,4 +1,4 @@
-//! Time and error, a group at a time; and wrong answers by the width of the gap.
+//! Time and error, group by group; and wrong answers by the size of the gap.
 
 use super::groups::{GROUPS, Grouped};
 use super::methods::{Asked, Method, Prepared, Said};
@@ -9,19 +9,19 @@ use asunder_scenes::pairs::{PosedPair2, PosedPair3};
 use asunder_tests::exact_overlap::Relation;
 use rayon::prelude::*;
 
-/// Pairs in a chunk. Reading the clock costs about as much as a query.
+/// Pairs per chunk. Reading the clock costs about as much as one query.
 const CHUNK: usize = 128;
 
-/// Rounds over all chunks, at least and at most.
+/// The least and the most rounds over all chunks.
 const ROUNDS: [usize; 2] = [5, 31];
 
-/// How much is asked.
+/// The amount of work.
 struct Effort {
     /// Pairs of random-mixed, and of every other group.
     pairs: [usize; 2],
-    /// Pairs that are timed.
+    /// How many pairs are timed.
     timed: usize,
-    /// CPU seconds that timing a group takes, all methods together.
+    /// CPU seconds for timing a group, all methods together.
     seconds: f64,
 }
 
@@ -71,7 +71,7 @@ fn of_group<P: Grouped + Judged + Asked>(name: &str, count: usize, effort: &Effo
     methods.iter().zip(answers).zip(samples).map(row).collect()
 }
 
-/// What every method says of every pair, on all threads.
+/// The answers of every method about every pair, on all threads.
 fn said_by_all<P: Sync>(methods: &[Method<P>], pairs: &[P]) -> Vec<Vec<Said>> {
     let by_method = |method: &Method<P>| {
         let of_chunk = |chunk| {
@@ -84,11 +84,11 @@ fn said_by_all<P: Sync>(methods: &[Method<P>], pairs: &[P]) -> Vec<Vec<Said>> {
     methods.iter().map(by_method).collect()
 }
 
-/// The time of each method a pair: chunk by chunk in turns, a sample a round; who is first changes from chunk to chunk.
+/// The time per pair of each method: chunk by chunk in turns, one sample per round; which comes first alternates.
 ///
-/// Before it is timed on a chunk, a method is asked about another one, so that its code is at hand whoever came before:
-/// without that, `fast` took 490 ns for mixed pairs in place of 350, beside a textbook that takes fifty times as long
-/// (AMD EPYC, Zen 4, 2026-11-22).
+/// Before a method is timed on a chunk, it runs on another one, so that its code is in the caches whichever method came
+/// before: without that, `fast` took 490 ns for mixed pairs in place of 350, beside a textbook that takes fifty times
+/// as long (AMD EPYC, Zen 4, 2026-11-22).
 pub(super) fn in_turns<P>(methods: &[Method<P>], pairs: &[P], seconds: f64) -> Vec<Samples> {
     let prepared: Vec<Vec<Box<dyn Prepared + '_>>> = pairs
         .chunks(CHUNK)
@@ -117,14 +117,14 @@ pub(super) fn in_turns<P>(methods: &[Method<P>], pairs: &[P], seconds: f64) -> V
     samples
 }
 
-/// One method's answers held against the truth.
+/// One method's answers compared with the truth.
 #[derive(Debug, Default)]
 struct Tally {
-    /// Pairs that do not touch exactly, and were answered.
+    /// Pairs that do not touch exactly and were answered.
     strict: u64,
     wrong: u64,
     refused: u64,
-    /// Of pairs that share a point, and of those of which it says so: as shares of the size.
+    /// Errors as shares of the size, of pairs that share a point and of those that the method says do.
     errors: Vec<f64>,
 }
 
@@ -141,7 +141,7 @@ impl Tally {
     }
 }
 
-/// Whether strictly apart or strictly overlapping was answered wrongly.
+/// Whether a strictly apart or strictly overlapping pair was answered wrongly.
 fn is_wrong(relation: Relation, said: Said) -> bool {
     match (relation, said) {
         (Relation::Touching, _) | (_, Said::Refused) => false,
@@ -150,8 +150,8 @@ fn is_wrong(relation: Relation, said: Said) -> bool {
     }
 }
 
-/// How far an answer is off, as a share of the size. A word without a number is off by what contradicts it; nothing
-/// where there is a gap and the method says so, for that has no number.
+/// How far an answer is off, as a share of the size. An answer without a number is off by what contradicts it; `None`
+/// where there is a gap and the method says so, since that has no number.
 fn error(truth: &Truth, said: Said) -> Option<f64> {
     let off = match said {
         Said::Refused => return None,
@@ -163,7 +163,7 @@ fn error(truth: &Truth, said: Said) -> Option<f64> {
     Some(off / truth.size)
 }
 
-/// Wrong answers by the width of the gap, in every group but the random one, where hardly any gap is narrow.
+/// Wrong answers by the size of the gap, in every group except the random one, where hardly any gap is small.
 pub(super) fn by_gap(quick: bool, progress: &dyn Fn(&str)) -> Vec<GapRow> {
     let count = if quick { 2000 } else { 20_000 };
     let mut rows = gaps_of_dimension::<PosedPair3>(count, progress);
@@ -175,7 +175,7 @@ fn gaps_of_dimension<P: Grouped + Judged + Asked>(count: usize, progress: &dyn F
     let mut rows = Vec::new();
     for name in &GROUPS[1..] {
         progress(&format!("wrong answers by gap, {}, {name}", P::DIMENSION));
-        // Other pairs than those of the first table.
+        // A seed of its own, so that these are other pairs than those of the first table.
         let pairs = P::group(name, count, 2);
         let (methods, truths) = (P::methods(), truths(&pairs));
         let answers = said_by_all(&methods, &pairs);
@@ -194,10 +194,10 @@ fn gaps_of_dimension<P: Grouped + Judged + Asked>(count: usize, progress: &dyn F
     rows
 }
 
-/// Decade of what touches exactly.
+/// The decade of exact touching.
 const TOUCHING: i32 = -99;
 
-/// Pairs whose gaps are about as wide, on one side of touching.
+/// Pairs of similar gap or depth, on one side of touching.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cell {
     decade: i32,
@@ -206,7 +206,7 @@ struct Cell {
     wrong: u64,
 }
 
-/// In order of the decade, overlapping before apart. What touches exactly overlaps; a refusal is no wrong answer.
+/// In order of the decade, overlapping before apart. Exact touching counts as overlapping; a refusal is not wrong.
 fn count_by_decade(truths: &[Truth], said: &[Said]) -> Vec<Cell> {
     let mut cells: Vec<Cell> = Vec::new();
     for (truth, &said) in truths.iter().zip(said) {
@@ -225,7 +225,7 @@ fn count_by_decade(truths: &[Truth], said: &[Said]) -> Vec<Cell> {
     cells
 }
 
-/// floor(log10) of a share, within -18 to 0.
+/// floor(log10) of a share, clamped to -18 to 0.
 fn decade(share: f64) -> i32 {
     (-18..0)
         .rev()
@@ -233,7 +233,7 @@ fn decade(share: f64) -> i32 {
         .map_or(-18, |decade| decade + i32::from(share >= 1.0))
 }
 
-/// Correctly rounded, as no product of tenths is.
+/// Correctly rounded, unlike products of 0.1.
 fn power_of_ten(exponent: i32) -> f64 {
     format!("1e{exponent}").parse().unwrap_or(0.0)
 }
@@ -265,7 +265,7 @@ mod tests {
         assert_eq!(of([Said::Refused; 3]), (0, 3, vec![]));
     }
 
-    /// A method that is as wrong as it can be, one that knows no numbers, and one that breaks.
+    /// A method that is always wrong, one that gives no numbers, and one that panics.
     #[test]
     fn methods_are_asked_and_held_against_the_truth() {
         struct Always(fn() -> Said, usize);

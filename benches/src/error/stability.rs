@@ -1,16 +1,16 @@
-//! How steady answers are where nothing of account changes.
+//! How stable answers are when almost nothing changes.
 //!
-//! | measure | what is done | what is told | of |
+//! | measure | what is done | what is reported | for |
 //! |---|---|---|---|
-//! | jitter-1ulp | faces on faces, sunk by 1e-4 of size; B's place and rotation moved by one ulp of f32, a number at a time, up and down | change of the depth, over the furthest that any point of B moved: above 1 it was rounding | each such step |
-//! | count-changes | the same | percent of steps after which the number of contact points is another | each hundred places |
+//! | jitter-1ulp | faces on faces, with an overlap of 1e-4 of size; B's position and rotation moved by one ulp of f32, one number at a time, up and down | change of the depth, divided by the furthest that any point of B moved: above 1 it is due to rounding | each such step |
+//! | count-changes | the same | percent of steps that change the number of contact points | each hundred places |
 //! | normal-flips | the same | degrees by which the normal turned | each step |
-//! | drifting-depth | the same, carried along and turned for 1e4 frames, rotations as products of f32 that nobody normalises | the depth less the true depth of the stored poses, over the size | each frame |
-//! | standing-stack | ten bodies upon each other under gravity for 5 s, our solver on our contacts | how far a body came from where it was put | each body |
+//! | drifting-depth | the same, moved and rotated for 1e4 frames, with rotations as f32 products that are never normalised | the depth minus the true depth at the stored poses, divided by the size | each frame |
+//! | standing-stack | ten bodies on one another under gravity for 5 s, with our solver on our contacts | how far a body moved from where it was put | each body |
 //!
-//! Faces lie within faces; in `aligned` ones a box lies exactly upon its like. In `cached` shapes contact points are
-//! asked for with what the frame before left. The textbook has no contact points, and parry3d no solver here. What a
-//! method refuses to answer is no sample.
+//! Faces lie within faces; in `aligned` pairs a box lies exactly on an equal box. For `cached` shapes contact points
+//! are queried with the hints of the previous frame. The textbook has no contact points, and parry3d no solver here.
+//! Where a method gives no answer, there is no sample.
 
 use super::StabilityRow;
 use super::methods::bodies3;
@@ -26,13 +26,13 @@ use asunder_tests::report::peers::{Contact, double, single, unless_panic};
 use asunder_tests::solver::{STEP, Settings, Solver};
 use glam::{DQuat, DVec3, Quat, Vec3};
 
-/// How deep faces are sunk into faces, as a share of the size.
+/// The overlap of resting faces, as a share of the size.
 const SUNK: f64 = 1e-4;
 
-/// Places of which one percentage is told.
+/// How many places one percentage is taken over.
 const BATCH: usize = 100;
 
-/// Bodies of a stack, and seconds that it stands.
+/// How many bodies a stack has, and for how many seconds it stands.
 const STACKED: usize = 10;
 const SECONDS: f64 = 5.0;
 
@@ -61,7 +61,7 @@ pub(super) fn all(quick: bool, progress: &dyn Fn(&str)) -> Vec<StabilityRow> {
     rows
 }
 
-/// A row from its samples; nothing of none.
+/// A row from its samples; `None` without samples.
 fn row(measure: &str, shape: &str, method: &str, unit: &str, samples: &[f64]) -> Option<StabilityRow> {
     let [median, p99, max] = quantiles(samples, [0.5, 0.99, 1.0])?;
     Some(StabilityRow {
@@ -76,13 +76,14 @@ fn row(measure: &str, shape: &str, method: &str, unit: &str, samples: &[f64]) ->
     })
 }
 
-/// How deep a pair is, and along which normal in the world; apart is no depth at all. Nothing where a method refuses.
+/// A pair's depth, and its normal in the world; a pair that is apart has depth 0. `None` where the method gives no
+/// answer.
 type Depth = fn(&PosedPair3) -> Option<Contact>;
 
-/// Contact points of some frames, each with what the one before left; or each anew.
+/// The number of contact points after some frames, each queried with the hints of the previous one, or anew.
 type Points = fn(&[&PosedPair3]) -> Option<usize>;
 
-/// What can be asked for a depth.
+/// The methods that give a depth.
 const DEPTHS: [(&str, Depth); 5] = [
     ("textbook-f32", textbook::<f32>),
     ("textbook-f64", textbook::<f64>),
@@ -115,7 +116,7 @@ fn textbook<T: Number>(pair: &PosedPair3) -> Option<Contact> {
     }))
 }
 
-/// What can be asked for contact points.
+/// The methods that give contact points.
 const POINTS: [(&str, Points); 3] = [
     ("certain", |frames| {
         let (mut batch, mut hint) = (Batch3::default(), Hint::NONE);
@@ -147,10 +148,10 @@ const POINTS: [(&str, Points); 3] = [
     }),
 ];
 
-/// A pair at rest whose numbers are f32 all, and what one ulp makes of it.
+/// A pair at rest, with all its numbers in f32, and its variations by one ulp.
 struct Place {
     pair: PosedPair3,
-    /// Each with the furthest that any point of B moved, in metres.
+    /// Each variation, with the furthest that any point of B moved, in metres.
     steps: Vec<(PosedPair3, f64)>,
 }
 
@@ -173,7 +174,7 @@ impl Place {
             let furthest = pair.shape_b.core().vertices().iter().map(moved).fold(0.0, f64::max);
             (PosedPair3 { pose_b, ..pair.clone() }, furthest)
         };
-        // A component of zero has steps too small to move anything.
+        // For a component of zero, the steps are too small to move anything.
         let steps = (0..14).map(step).filter(|(_, moved)| *moved > 1e-12).collect();
         Self { pair, steps }
     }
@@ -183,7 +184,7 @@ fn pose_of(position: Vec3, rotation: [f32; 4]) -> Pose3 {
     Pose3::new(position, Quat::from_array(rotation)).expect(IN_RANGE)
 }
 
-/// A box exactly upon its like, so that all their sides lie in common planes: the clipping of faces has to choose.
+/// A box exactly on an equal box, so that their sides lie in common planes: the clipping of faces has to choose.
 fn aligned(count: usize) -> Vec<PosedPair3> {
     let mut random = Random::new(7);
     let pair = |_| {
@@ -225,7 +226,7 @@ fn of_ulps(name: &str, pairs: &[PosedPair3]) -> Vec<StabilityRow> {
     rows
 }
 
-/// Percent of the steps of some places after which there are more contact points, or fewer.
+/// Percent of the steps of some places after which the number of contact points is different.
 fn percent_changed(places: &[Place], points: Points, is_cached: bool) -> f64 {
     let (mut steps, mut changed) = (0, 0);
     for place in places {
@@ -241,7 +242,7 @@ fn percent_changed(places: &[Place], points: Points, is_cached: bool) -> f64 {
     100.0 * f64::from(changed) / f64::from(steps.max(1))
 }
 
-/// Between two directions, in degrees; half a turn where one of both has none.
+/// The angle between two directions, in degrees; 180 where one of them is zero.
 #[allow(clippy::disallowed_methods, reason = "a figure for people, and no output of the library")]
 fn angle(a: DVec3, b: DVec3) -> f64 {
     let (across, along) = (a.cross(b).length(), a.dot(b));
@@ -263,7 +264,7 @@ fn drifting(kind: SolidKind, frames: usize) -> Vec<StabilityRow> {
     DEPTHS.into_iter().filter_map(of_method).collect()
 }
 
-/// A pair on its way: a tenth of a metre and a hundredth of a radian a frame, both bodies as one.
+/// A pair that moves as one: by a tenth of a metre and a hundredth of a radian a frame.
 fn carried(pair: &PosedPair3, frames: usize) -> Vec<PosedPair3> {
     let unit = |pose: &Pose3| pose.rotation().as_dquat().normalize();
     let seen_from_a = unit(&pair.pose_a).conjugate();
@@ -285,7 +286,7 @@ fn carried(pair: &PosedPair3, frames: usize) -> Vec<PosedPair3> {
     (0..frames).map(|_| frame()).collect()
 }
 
-/// Hamilton's product in f32, as a game's integrator has it.
+/// Hamilton's product in f32, as in a game's integrator.
 fn product(a: Quat, b: Quat) -> Quat {
     Quat::from_xyzw(
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -295,7 +296,7 @@ fn product(a: Quat, b: Quat) -> Quat {
     )
 }
 
-/// Bodies upon each other, each put so that it just touches the one below.
+/// Bodies on one another, each placed so that it just touches the one below.
 fn standing(name: &str, shape: &Shape3) -> StabilityRow {
     let mut solver = Solver::new(Settings::default());
     let floor = Cuboid::from_half_extents(Vec3::new(20.0, 1.0, 20.0)).expect(IN_RANGE);

@@ -1,15 +1,15 @@
-//! The separating axis test as books have it, in f32 and in f64: what most games would write.
+//! The separating axis test as in textbooks, in f32 and in f64: what most games would write.
 //!
 //! Christer Ericson, "Real-Time Collision Detection", 2005, sections 4.4 and 5.2, and every tutorial since:
 //!
 //! ```text
-//! axes      face normals of A, of B, and the cross products of their edges; in the plane, edge normals
+//! axes      face normals of A, face normals of B, and the cross products of their edges; in the plane, edge normals
 //! skipped   cross products shorter than 1e-6, since parallel edges have none
-//! turned    so that they point from A's centre to B's
-//! depth     how far A's furthest vertex along the axis lies beyond B's nearest; below zero, they are apart: done
+//! oriented  each axis points from A's centre to B's
+//! depth     how far A's furthest vertex along the axis is beyond B's nearest; if negative, they are apart: done
 //! ```
-//! Shapes stand in world coordinates of the number type. Normals and edges that repeat or oppose each other are
-//! listed once, so that two boxes have fifteen axes.
+//! Shapes are in world coordinates, in the number type. Normals and edges that are parallel to others are listed once,
+//! so that two boxes have fifteen axes.
 
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -58,21 +58,21 @@ pub(super) struct Form<T, const N: usize> {
     center: [T; N],
 }
 
-/// Where a shape is: what becomes of its axes, and of its origin.
+/// Where a shape is: the images of its axes and of its origin.
 struct Place<T, const N: usize> {
     axes: [[T; N]; N],
     position: [T; N],
-    /// What makes a turned normal a unit vector again: a cosine and a sine of f32 are off by their rounding.
+    /// The factor that makes a rotated normal a unit vector again: an f32 cosine and sine are off by their rounding.
     unit: T,
 }
 
-/// A shape where it is. Equal shapes share their form, as a game's do.
+/// A shape at a pose. Equal shapes share their form, as in a game.
 pub(super) struct Body<T, const N: usize> {
     form: Rc<Form<T, N>>,
     place: Place<T, N>,
 }
 
-/// The forms of shapes that were seen. Cost of one: a look through those before it.
+/// The forms of shapes seen so far. Cost of one: a linear search.
 pub(super) struct Forms<'a, S, T, const N: usize>(Vec<(&'a S, Rc<Form<T, N>>)>);
 
 impl<S, T, const N: usize> Default for Forms<'_, S, T, N> {
@@ -92,7 +92,7 @@ impl<'a, S: PartialEq, T, const N: usize> Forms<'a, S, T, N> {
     }
 }
 
-/// Memory that is kept from query to query.
+/// Memory that is reused from query to query.
 pub(super) struct World<T, const N: usize> {
     vertices: [Vec<[T; N]>; 2],
     normals: [Vec<[T; N]>; 2],
@@ -121,7 +121,7 @@ fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The deepest penetration along the shallowest axis, and that axis, from A to B; nothing where some axis parts them.
+/// The depth along the axis of least penetration, and that axis, from A to B; `None` where some axis separates them.
 pub(super) type Depth<T, const N: usize> = Option<(T, [T; N])>;
 
 impl<T: Number, const N: usize> Place<T, N> {
@@ -136,7 +136,7 @@ impl<T: Number, const N: usize> Place<T, N> {
     }
 }
 
-/// Directions of unit length without those that repeat or oppose others.
+/// Directions of unit length, without those that are equal or opposite to earlier ones.
 fn distinct<const N: usize>(directions: impl Iterator<Item = [f64; N]>) -> Vec<[f64; N]> {
     let mut known: Vec<[f64; N]> = Vec::new();
     for direction in directions {
@@ -189,7 +189,7 @@ impl<T: Number> Form<T, 2> {
 }
 
 impl<T: Number> Body<T, 3> {
-    /// A sharp solid where it is.
+    /// A sharp solid at a pose.
     pub(super) fn solid<'a>(shape: &'a Shape3, pose: &Pose3, forms: &mut Forms<'a, Shape3, T, 3>) -> Self {
         let q = pose.rotation().to_array().map(|c| T::of(c.into()));
         let length = dot(q, q).root();
@@ -206,7 +206,7 @@ impl<T: Number> Body<T, 3> {
 }
 
 impl<T: Number> Body<T, 2> {
-    /// A sharp polygon where it is.
+    /// A sharp polygon at a pose.
     pub(super) fn polygon<'a>(shape: &'a Shape2, pose: &Pose2, forms: &mut Forms<'a, Shape2, T, 2>) -> Self {
         let [c, s] = [pose.rotation().cos(), pose.rotation().sin()].map(|c| T::of(c.into()));
         let position = pose.position().to_array().map(T::of);
@@ -217,7 +217,7 @@ impl<T: Number> Body<T, 2> {
 }
 
 impl<T: Number, const N: usize> World<T, N> {
-    /// Both shapes in world coordinates; from A's centre to B's.
+    /// Transforms both shapes to world coordinates; returns the vector from A's centre to B's.
     fn place(&mut self, bodies: [&Body<T, N>; 2]) -> [T; N] {
         for (i, Body { form, place }) in bodies.into_iter().enumerate() {
             let fill = |into: &mut Vec<[T; N]>, from: &[[T; N]], make: &dyn Fn([T; N]) -> [T; N]| {
@@ -232,7 +232,7 @@ impl<T: Number, const N: usize> World<T, N> {
         combined(b, a, |b, a| b - a)
     }
 
-    /// Whether they overlap along a unit axis, and the least depth so far.
+    /// Whether they overlap along a unit axis; updates the least depth so far.
     fn test(&self, axis: [T; N], between: [T; N], best: &mut Depth<T, N>) -> bool {
         let axis = if dot(axis, between) < T::of(0.0) { axis.map(|x| -x) } else { axis };
         let furthest = |vertices: &[[T; N]], is_better: fn(&T, &T) -> bool| {
@@ -303,7 +303,7 @@ mod tests {
         World::<T, 3>::default().depth(&a, &b).map(|(depth, _)| depth.into())
     }
 
-    /// No face is parallel to another, and no centre in the other shape: what the book can do.
+    /// No face is parallel to another, and no centre is in the other shape: pairs that the book can handle.
     #[test]
     fn it_agrees_with_the_truth_on_easy_pairs() {
         for kind in [SolidKind::Box, SolidKind::Hull8] {
@@ -346,7 +346,7 @@ mod tests {
         assert_eq!((body.form.normals.len(), body.form.edges.len()), (3, 3));
     }
 
-    /// As known: the axis of edges that are nearly parallel is skipped, or points anywhere.
+    /// A known fault: the axis of nearly parallel edges is skipped, or points anywhere.
     #[test]
     fn it_is_wrong_on_nearly_parallel_edges() {
         let family = Family3::by_name("parallel-edges").unwrap();

@@ -1,8 +1,8 @@
-//! The truth about pairs: found once, and held against every method.
+//! The truth about pairs: computed once, and compared with every method.
 //!
-//! The separation is that of the tests' oracle in double-double (`asunder_tests::precise`), right to a unit or two in
-//! the last place of an f64. Yes or no is its sign where it is further from zero than 1e-9 of the size, which is a
-//! million times its error; nearer, exact arithmetic over integers (`asunder_tests::exact_overlap`) decides.
+//! The separation is that of the tests' oracle in double-double (`asunder_tests::precise`), accurate to a unit or two
+//! in the last place of an f64. Yes or no is its sign where it is further from zero than 1e-9 of the size, which is a
+//! million times its error; nearer, exact integer arithmetic (`asunder_tests::exact_overlap`) decides.
 
 use crate::judge::Judge;
 use asunder_scenes::pairs::{PosedPair2, PosedPair3};
@@ -10,24 +10,24 @@ use asunder_tests::exact_overlap::Relation;
 use asunder_tests::report::Posed;
 use rayon::prelude::*;
 
-/// Nearer to touching than this share of size, integers decide.
+/// Within this share of the size from touching, integers decide.
 const NEAR: f64 = 1e-9;
 
-/// Pairs that are judged by one judge: he keeps all hulls that he has seen, and looks through them.
+/// Pairs per judge, which stores all hulls it has seen and searches them linearly.
 const CHUNK: usize = 200;
 
-/// What is true of a pair.
+/// The truth about a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Truth {
     /// How the two lie, exactly.
     pub(super) relation: Relation,
-    /// The distance in a gap, minus the depth in overlap, in metres.
+    /// The distance of a gap, or minus the depth of an overlap, in metres.
     pub(super) separation: f64,
-    /// What errors are relative to, in metres.
+    /// The size to which errors are relative, in metres.
     pub(super) size: f64,
 }
 
-/// Pairs whose separations can be found many at once.
+/// Pairs whose separations can be computed many at a time.
 pub(super) trait Judged: Posed {
     /// The separations of some pairs, in metres.
     fn separations(pairs: &[Self]) -> Vec<f64>
@@ -48,7 +48,7 @@ impl Judged for PosedPair2 {
     }
 }
 
-/// The truth about each pair, in order, on all threads.
+/// The truth about each pair, in order; computed on all threads.
 pub(super) fn truths<P: Judged>(pairs: &[P]) -> Vec<Truth> {
     let of_chunk = |chunk: &[P]| -> Vec<Truth> {
         let separations = P::separations(chunk);

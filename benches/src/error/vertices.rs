@@ -1,7 +1,7 @@
-//! Time against vertices: hulls of 4 to 256, polygons of 3 to 4096.
+//! Time against vertices: hulls of 4 to 256 vertices, polygons of 3 to 4096.
 //!
-//! Two of five pairs are apart, the others overlap, none so little that exact arithmetic is asked. A set draws from few
-//! different shapes, as a game does.
+//! Two of five pairs are apart, the others overlap, none of them by so little that exact arithmetic is needed. A set
+//! draws from few different shapes, as a game does.
 
 use super::VertexRow;
 use super::groups::Grouped;
@@ -18,7 +18,7 @@ use glam::{DVec3, Vec3};
 const SOLIDS: [usize; 7] = [4, 8, 16, 32, 64, 128, 256];
 const POLYGONS: [usize; 12] = [3, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
 
-/// Pairs of a set, and different shapes in it.
+/// Pairs per set, and the number of different shapes in it.
 const PAIRS: usize = 240;
 const DISTINCT: usize = 16;
 
@@ -39,9 +39,9 @@ pub(super) fn all(quick: bool, progress: &dyn Fn(&str)) -> Vec<VertexRow> {
     rows
 }
 
-/// All questions take turns with each other: one that is asked alone, again and again, has its pairs learned by heart.
-/// So manifolds of polygons of 32 took half of what their separations took, which is as much (AMD EPYC, Zen 4,
-/// 2026-11-22).
+/// All queries take turns with each other: a query that runs alone, again and again, has its pairs memorised by the
+/// processor. So measured, manifolds of polygons of 32 vertices took half the time of their separations, although they
+/// cost as much (AMD EPYC, Zen 4, 2026-11-22).
 fn of_pairs<P: Grouped + Asked>(vertices: usize, pairs: &[P], seconds: f64) -> Vec<VertexRow> {
     let asked =
         |operation: Operation| P::methods_for(operation, vertices).into_iter().map(move |m| (operation, m));
@@ -82,7 +82,7 @@ fn tetrahedron(random: &mut Random) -> Shape3 {
     Hull::from_points(points.as_slice() as &[Vec3]).expect(IN_RANGE).into()
 }
 
-/// Hulls of so many vertices, placed so that their bounding spheres overlap.
+/// Pairs of hulls with so many vertices, placed so that their bounding spheres overlap.
 fn of_solids(vertices: usize) -> Vec<PosedPair3> {
     let mut random = Random::new(vertices as u64);
     let shapes: Vec<Shape3> = match kind(vertices) {
@@ -104,7 +104,8 @@ fn of_solids(vertices: usize) -> Vec<PosedPair3> {
     pairs
 }
 
-/// Ellipses of so many vertices, that circles do not tell: two of five apart, two a little in each other, one deep.
+/// Pairs of ellipses with so many vertices that circles cannot decide: two of five apart, two with a small overlap, one
+/// deep.
 fn of_polygons(vertices: usize) -> Vec<PosedPair2> {
     let fifth = PAIRS / 5;
     let counts = [(Lie::Apart, 2 * fifth), (Lie::Light, 2 * fifth), (Lie::Deep, fifth)];

@@ -1,4 +1,4 @@
-//! Polygons of 8 to 4096 vertices in places that circles do not tell: how the cost grows with the vertices.
+//! Polygons of 8 to 4096 vertices, in placements that circles cannot decide: how cost grows with the vertices.
 
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Polygon, Pose2, Rotation2, Shape2};
@@ -6,7 +6,7 @@ use asunder_narrow::Pair2;
 use asunder_scenes::pairs::PosedPair2;
 use asunder_scenes::random::Random;
 
-/// How two ellipses lie; a size is the sum of the two bounding radii.
+/// How two ellipses are placed. A size is the sum of the two bounding radii.
 ///
 /// ```
 /// use asunder_benches::flat::Lie;
@@ -14,16 +14,16 @@ use asunder_scenes::random::Random;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lie {
-    /// Apart by 1e-3 to 1e-2 of size along an axis, though the circles around them overlap.
+    /// Apart by 1e-3 to 1e-2 of size along an axis, although their bounding circles overlap.
     Apart,
-    /// Overlapping by no more along that axis, though the circles inside them are apart.
+    /// Overlapping by no more than that along the axis, although their inscribed circles are apart.
     Light,
-    /// One inside the other's place: nearly one centre, and all edges about as good.
+    /// The centres nearly coincide, and all edges have about the same depth.
     Deep,
 }
 
 impl Lie {
-    /// Every one of them.
+    /// All placements.
     pub const ALL: [Self; 3] = [Self::Apart, Self::Light, Self::Deep];
 
     /// The name used in result rows.
@@ -36,21 +36,21 @@ impl Lie {
     }
 }
 
-/// Different polygons in a set: more than a branch predictor learns by heart.
+/// Different polygons in a set: more than a branch predictor can memorise.
 const DISTINCT: usize = 24;
 
 const IN_RANGE: &str = "half a metre around the origin is a polygon's place";
 
-/// A quarter of a turn, taken `turns` times: the vector of unit length there, without trigonometry.
+/// The unit vector at an angle of about `quarters` quarter turns, without trigonometry.
 fn on_circle(quarters: f64) -> DVec2 {
     let t = quarters.fract();
     let point = DVec2::new(1.0 - t * t, 2.0 * t) / (1.0 + t * t);
     (0..quarters as usize).fold(point, |point, _| point.perp())
 }
 
-/// Points around an ellipse, at places even up to half a step; some of thousands are lost to rounding.
+/// Points around an ellipse, at even places up to half a step; of thousands, some are lost to rounding.
 fn ellipse(count: usize, lie: Lie, random: &mut Random) -> Shape2 {
-    // Those that lie on one centre are as good as round, so that no edge is much better than another.
+    // Those with a common centre are almost round, so that no edge is much better than another.
     let radii = if lie == Lie::Deep { [0.5; 2] } else { [random.range(0.55, 0.6), random.range(0.3, 0.35)] };
     let points: Vec<Vec2> = (0..count)
         .map(|i| on_circle(4.0 * (i as f64 + random.range(0.0, 0.5)) / count as f64))
@@ -87,7 +87,7 @@ pub(crate) fn pairs(vertices: usize, lie: Lie, count: usize) -> Vec<PosedPair2> 
             Lie::Light => way * (touching - gap),
             Lie::Deep => way * (1e-3 * gap),
         };
-        // What circles tell is a row of its own.
+        // What circles can decide has a row of its own.
         let (far, near) = (size, f64::from(inner_radius(a) + inner_radius(b)));
         if lie != Lie::Deep && !(near..far).contains(&offset.length()) {
             continue;
@@ -98,7 +98,7 @@ pub(crate) fn pairs(vertices: usize, lie: Lie, count: usize) -> Vec<PosedPair2> 
             shape_b: b.clone(),
             pose_b: Pose2::new(offset, turn_b).expect(IN_RANGE),
         };
-        // That their projections on one axis overlap is no proof that they do.
+        // An overlap of their projections on one axis is no proof that they overlap.
         if lie != Lie::Light || overlap(&pair) {
             pairs.push(pair);
         }

@@ -1,8 +1,8 @@
-//! What we say of pairs in the plane, held against the truth.
+//! Our answers about pairs in the plane, compared with the truth.
 //!
-//! The truth is the tests' oracle in double-double (`asunder_tests::precise`): it knows stored vertices and poses
-//! alone, makes the outlines by exact predicates, projects all of both shapes on every edge's normal, and in a gap
-//! proves a distance by two bounds that meet. Nothing of it is the kernels'.
+//! The truth is the tests' oracle in double-double (`asunder_tests::precise`). It uses only the stored vertices and
+//! poses, builds the outlines with exact predicates, projects all vertices of both shapes on every edge's normal, and
+//! for a gap proves the distance by two bounds that meet. It shares nothing with the kernels.
 
 use super::{Case, Memory};
 use crate::accuracy::{Accuracy, Said};
@@ -12,13 +12,13 @@ use asunder_narrow::{Answer, Manifold2, Pair2, Separation2};
 use asunder_scenes::pairs::{FRAMES, PosedPair2};
 use asunder_tests::precise::separation2;
 
-/// Vertices of the pairs of a row that are judged at most: the judge takes about 2 us for each.
+/// The most vertices of a row's pairs that are judged: the judge takes about 2 us for each.
 const VERTICES: usize = 400_000;
 
-/// Pairs that are judged at most, and at least, however many vertices they have.
+/// The most and the fewest pairs that are judged, however many vertices they have.
 const PAIRS: [usize; 2] = [10_000, 20];
 
-/// Our answers to a part of the pairs, spread over all of them, in whole sequences of frames, held against the truth.
+/// Compares our answers with the truth for a part of the pairs, spread over all of them, in whole sequences of frames.
 pub(super) fn judged(case: &Case, pairs: &[PosedPair2], effort: &Effort) -> Accuracy {
     let is_sequence = case.set().is_some_and(|set| set.is_sequence());
     let tracks = if is_sequence { pairs.len() / FRAMES } else { pairs.len() }.max(1);
@@ -50,7 +50,7 @@ fn vertices(pair: &PosedPair2) -> usize {
     pair.shape_a.core().vertices().len() + pair.shape_b.core().vertices().len()
 }
 
-/// The separation in metres, right to a unit or two in the last place of an f64.
+/// The separation in metres, accurate to a unit or two in the last place of an f64.
 fn truth(pair: &PosedPair2) -> f64 {
     separation2((&pair.shape_a, &pair.pose_a), (&pair.shape_b, &pair.pose_b)).separation
 }
@@ -86,7 +86,7 @@ fn of_answer(answer: &Answer, manifolds: &[Manifold2]) -> Said {
     }
 }
 
-/// As deep as the deepest point.
+/// The separation of the deepest point.
 fn of_manifolds(manifolds: &[Manifold2]) -> Said {
     let points = manifolds.iter().flat_map(|manifold| &manifold.points);
     let deepest = points.map(|point| f64::from(point.separation)).reduce(f64::min);
@@ -101,7 +101,7 @@ mod tests {
     use asunder_tests::exhaustive_sat::exhaustive_sat2;
     use asunder_tests::placed::Placed2;
 
-    /// By all pairs of vertices and by all pairs of a vertex and an edge, in plain f64.
+    /// From all pairs of vertices and all pairs of a vertex and an edge, in plain f64.
     fn by_exhaustion(pair: &PosedPair2) -> f64 {
         let origin = pair.pose_a.position();
         let [a, b] = [(&pair.shape_a, &pair.pose_a), (&pair.shape_b, &pair.pose_b)]
@@ -116,7 +116,7 @@ mod tests {
             for set in PairSet::ALL {
                 for pair in &pairs2(kind, set, 4, 3)[..4] {
                     let (truth, found) = (truth(pair), by_exhaustion(pair));
-                    // Coordinates of some metres in f64, and a few dozen roundings of them.
+                    // Coordinates of some metres in f64, with a few dozen roundings.
                     assert!(
                         (truth - found).abs() < 1e-13,
                         "{}/{}: {truth}, {found}",

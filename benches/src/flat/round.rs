@@ -1,4 +1,4 @@
-//! Circles and capsules: pairs whose radii decide.
+//! Circles and capsules: pairs for which the radii decide.
 
 use asunder_geometry::glam::{DVec2, DVec3, Vec2};
 use asunder_geometry::{Capsule2, Circle, Pose2, Rotation2, Shape2};
@@ -6,7 +6,7 @@ use asunder_narrow::Pair2;
 use asunder_scenes::pairs::{PairSet, PosedPair2};
 use asunder_scenes::random::Random;
 
-/// Different shapes in a set, every other one a circle.
+/// Different shapes in a set; every other one is a circle.
 const DISTINCT: usize = 16;
 
 const IN_RANGE: &str = "half a metre around a place near the origin is in range";
@@ -21,7 +21,7 @@ fn shape(index: usize, random: &mut Random) -> Shape2 {
     Capsule2::new(-end, end, radius).expect(IN_RANGE).into()
 }
 
-/// A shape as it is turned.
+/// A shape with its rotation.
 struct Turned<'a> {
     shape: &'a Shape2,
     rotation: Rotation2,
@@ -33,7 +33,7 @@ impl<'a> Turned<'a> {
         Self { shape, rotation: Rotation2::new(unit.x, unit.y).expect(IN_RANGE) }
     }
 
-    /// The point of the surface that is furthest along a unit vector, from the shape's position.
+    /// The support point along a unit vector, from the shape's position.
     fn support(&self, way: DVec2) -> DVec2 {
         let core = self.shape.core();
         let points = core.vertices().iter().map(|v| self.rotation.turn(v.as_dvec2()));
@@ -41,7 +41,7 @@ impl<'a> Turned<'a> {
         furthest + way * f64::from(self.shape.radius())
     }
 
-    /// Half its width along both axes.
+    /// Half its extent along both axes.
     fn half_extents(&self) -> DVec2 {
         DVec2::new(self.support(DVec2::X).x, self.support(DVec2::Y).y)
     }
@@ -51,7 +51,7 @@ fn direction(random: &mut Random) -> DVec2 {
     random.direction().truncate().normalize()
 }
 
-/// `count` pairs. Touching means that two points of the surfaces are within 1e-3 of size along a common normal.
+/// `count` pairs. In `Touch`, two surface points are within 1e-3 of size along a common normal.
 pub(super) fn pairs(set: PairSet, count: usize) -> Vec<PosedPair2> {
     let mut random = Random::new(0x09);
     let shapes: Vec<Shape2> = (0..DISTINCT).map(|index| shape(index, &mut random)).collect();

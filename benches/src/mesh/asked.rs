@@ -1,4 +1,4 @@
-//! Making meshes, rays, and questions about a body and the ground.
+//! Building meshes, rays, and queries for a body and the ground.
 
 use super::{Question, mesh_of};
 use crate::clock::Effort;
@@ -15,12 +15,12 @@ use parry3d::query::{self, Ray, ShapeCastOptions};
 use parry3d::shape::SharedShape;
 use std::error::Error;
 
-/// Questions in a set.
+/// Queries per set.
 const QUESTIONS: usize = 2000;
 
 const PEER: &str = "parry3d TriMesh";
 
-/// The time for a triangle.
+/// The building time per triangle.
 pub(super) fn build(terrain: &Terrain, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
     let effort = Effort { rounds: effort.rounds.min(9), ..*effort };
     let (vertices, triangles) = (terrain.vertices(), terrain.triangles());
@@ -37,7 +37,8 @@ pub(super) fn build(terrain: &Terrain, effort: &Effort, mut row: Row) -> Result<
     Ok(row)
 }
 
-/// Points so many metres over the ground, at least and at most, and a way down each, long enough to pass through.
+/// Points between `low` and `high` metres above the ground, and a downward motion for each, long enough to pass
+/// through.
 fn falls(terrain: &Terrain, low: f64, high: f64) -> Vec<(DVec3, Vec3)> {
     let mut random = Random::new(22);
     let inside = |random: &mut Random| random.range(0.2, 0.8) * terrain.side();
@@ -52,7 +53,7 @@ fn falls(terrain: &Terrain, low: f64, high: f64) -> Vec<(DVec3, Vec3)> {
         .collect()
 }
 
-/// The whole set in turns, until rounds or time are up.
+/// The whole set on both sides in turns, until rounds or time are used up.
 fn in_turns(effort: &Effort, mut row: Row, ours: impl FnMut() -> usize, peer: impl FnMut() -> usize) -> Row {
     let (race, said) = Race::run(effort, QUESTIONS, ours, peer, |hits, peer_hits| {
         format!("{hits} of {QUESTIONS} say yes, the peer's {peer_hits}")
@@ -73,7 +74,7 @@ pub(super) fn rays(terrain: &Terrain, effort: &Effort, row: Row) -> Result<Row, 
     Ok(in_turns(effort, row, || rays.iter().filter(ours).count(), || twins.iter().filter(peer).count()))
 }
 
-/// One question about one shape, in many places.
+/// One query for one shape, in many places.
 pub(super) fn bodies(
     terrain: &Terrain,
     (question, shape): (Question, &Shape3),

@@ -1,4 +1,4 @@
-//! A pair in our types and in parry3d's, and every question to either.
+//! A pair in our types and in parry3d's, and every query on either side.
 
 use super::Operation;
 use crate::accuracy::Said;
@@ -19,11 +19,11 @@ pub(crate) struct Both {
     poses: [Pose; 2],
 }
 
-/// What parry3d finds, in memory that is kept.
+/// parry3d's manifolds, in memory that is reused.
 pub(super) type Manifolds = Vec<ContactManifold<(), ()>>;
 
 impl Both {
-    /// The pairs in both types; nothing where parry3d refuses a hull.
+    /// The pairs in both types; `None` where parry3d rejects a hull.
     pub(crate) fn all(pairs: &[PosedPair3], shapes: &mut Shapes) -> Option<Vec<Self>> {
         let both = pairs.iter().map(|pair| {
             Some(Self {
@@ -48,12 +48,12 @@ impl Both {
         [self.ours.pose_a, self.ours.pose_b]
     }
 
-    /// Shapes and poses as parry3d has them.
+    /// Shapes and poses in parry3d's types.
     pub(crate) fn of_peer(&self) -> (&[SharedShape; 2], &[Pose; 2]) {
         (&self.shapes, &self.poses)
     }
 
-    /// Our answer: something of it, so that none of it can be left out.
+    /// Our answer: returns a number from it, so that none of it can be optimised away.
     pub(crate) fn ask(&self, operation: Operation) -> f32 {
         let pair = self.pair();
         match operation {
@@ -120,25 +120,25 @@ pub(super) fn of_answer(answer: &Answer, is_sensor: bool, manifolds: &[Manifold3
     }
 }
 
-/// What manifolds say, to be judged.
+/// The depth of manifolds, to be judged.
 pub(super) fn of_manifolds(manifolds: &[Manifold3]) -> Said {
     of_depths(manifolds.iter().map(|manifold| manifold.separation))
 }
 
-/// As deep as the deepest of them.
+/// The separation of the deepest of them.
 fn of_depths(separations: impl Iterator<Item = f32>) -> Said {
     let deepest = separations.map(f64::from).reduce(f64::min);
     Said { touching: deepest.is_some(), separation: deepest }
 }
 
-/// parry3d, with manifolds whose memory is kept from pair to pair.
+/// parry3d, with manifolds whose memory is reused from pair to pair.
 #[derive(Default)]
 pub(crate) struct Peer {
     manifolds: Manifolds,
 }
 
 impl Peer {
-    /// Its answer: something of it, so that none of it can be left out.
+    /// Its answer: returns a number from it, so that none of it can be optimised away.
     pub(crate) fn ask(&mut self, operation: Operation, both: &Both) -> f32 {
         let ([a, b], [pose_a, pose_b]) = (&both.shapes, &both.poses);
         let (a, b) = (&*a.0, &*b.0);
@@ -179,7 +179,7 @@ impl Peer {
         }
     }
 
-    /// An empty manifold without a normal is one without memory; its allocation may stay.
+    /// Without points and normal a manifold holds nothing from before; its allocation may stay.
     fn forget(&mut self) {
         for manifold in &mut self.manifolds {
             manifold.points.clear();
@@ -188,7 +188,7 @@ impl Peer {
     }
 }
 
-/// What parry3d's manifolds say, to be judged.
+/// The depth of parry3d's manifolds, to be judged.
 pub(super) fn of_peer(manifolds: &Manifolds) -> Said {
     of_depths(manifolds.iter().flat_map(|manifold| &manifold.points).map(|point| point.dist))
 }
@@ -200,7 +200,7 @@ impl Both {
         query::intersection_test(pose_a, &*a.0, pose_b, &*b.0).is_ok_and(|found| found.intersecting)
     }
 
-    /// parry3d's manifolds, from what they were.
+    /// Updates parry3d's manifolds from their last state.
     pub(super) fn peer_manifolds(&self, manifolds: &mut Manifolds) -> f32 {
         let ([a, b], [pose_a, pose_b]) = (&self.shapes, &self.poses);
         let relative = pose_a.inv_mul(pose_b);

@@ -1,4 +1,4 @@
-//! Frame after frame, each with what the last one left.
+//! Queries frame after frame, each with the hints of the last.
 
 use super::BLOCK;
 use super::both::{Both, Manifolds, of_answer, of_manifolds, of_peer};
@@ -10,14 +10,14 @@ use asunder_geometry::{Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Persistent3, Spare3, collide3};
 use core::borrow::Borrow;
 
-/// Frames that a pair at rest is asked about with what the last one left; the first is not timed.
+/// Frames in which a pair at rest is queried with the hints of the last one; the first is not timed.
 const REST_FRAMES: usize = 6;
 
 fn steps(frames: usize) -> usize {
     if frames == 1 { REST_FRAMES } else { frames }
 }
 
-/// Times all frames, blocks of pairs in turns; the first frame of a block is not timed.
+/// Times all frames, by both sides in turns on blocks of pairs; the first frame of a block is not timed.
 pub(super) fn time_frames(frames: &[Vec<Both>], effort: &Effort, row: &mut Row) -> Race {
     let mut race = Race::default();
     let tracks = frames.first().map_or(0, Vec::len);
@@ -45,7 +45,7 @@ pub(super) fn time_frames(frames: &[Vec<Both>], effort: &Effort, row: &mut Row) 
     race
 }
 
-/// Both sides' answers in every frame, frame by frame, to be judged; of a pair at rest, the last.
+/// Both sides' answers in every frame, frame by frame, to be judged; for a pair at rest, the last.
 pub(super) fn said(frames: &[Vec<&Both>]) -> (Vec<Said>, Vec<Said>) {
     let (mut ours, mut peer) = (Vec::new(), Vec::new());
     let mut memory = Memory::new(frames.first().map_or(0, Vec::len));
@@ -61,12 +61,12 @@ pub(super) fn said(frames: &[Vec<&Both>]) -> (Vec<Said>, Vec<Said>) {
     (ours, peer)
 }
 
-/// What either side remembers of a block of pairs. On our side that is what a world remembers: hints, manifolds that
-/// can be moved along, and where bodies were, which tells whether keeping one is of use.
+/// What either side remembers of a block of pairs. On our side it is what a world remembers: hints, manifolds that can
+/// be moved along with the bodies, and the last poses, which tell whether keeping one pays.
 struct Memory {
     kept: Vec<Kept>,
     batch: Batch3,
-    /// Manifolds that were moved along.
+    /// Manifolds that were kept and moved along.
     moved: Vec<Manifold3>,
     manifolds: Vec<Manifolds>,
 }
@@ -80,7 +80,7 @@ struct Kept {
     found: Found,
 }
 
-/// Where the answer of a pair is.
+/// Where a pair's answer is.
 #[derive(Clone, Copy, Default)]
 enum Found {
     #[default]
@@ -89,7 +89,7 @@ enum Found {
     Answered(usize),
 }
 
-/// How far both bodies went since the last frame. A world asks that once a body, and not once a pair.
+/// How far both bodies moved since the last frame. A world computes that once per body, not once per pair.
 fn went(last: Option<[Pose3; 2]>, job: &Job3<'_>) -> f64 {
     let Some([a, b]) = last else { return f64::INFINITY };
     let arm = |shape: &Shape3| f64::from(shape.center().length() + shape.outer_radius());
@@ -135,7 +135,7 @@ impl Memory {
         found.flat_map(|manifold| &manifold.points).map(|point| point.separation).sum()
     }
 
-    /// What we said last, pair by pair.
+    /// Our last answers, pair by pair.
     fn said(&self) -> impl Iterator<Item = Said> + '_ {
         self.kept.iter().map(|kept| match kept.found {
             Found::Nowhere => Said { touching: false, separation: None },

@@ -1,8 +1,8 @@
-//! From values to places along an edge of a plot.
+//! Axes: from values to positions along an edge of a plot.
 
 use libm::{exp10, floor, log10};
 
-/// An axis, logarithmic with an own band for zero where it is asked for, or linear from zero.
+/// An axis: logarithmic, with a band of its own for zero on request, or linear from zero.
 ///
 /// ```
 /// use asunder_benches::report::axis::Axis;
@@ -12,9 +12,9 @@ use libm::{exp10, floor, log10};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
-    /// Powers of ten at both ends.
+    /// The powers of ten at both ends.
     decades: (i32, i32),
-    /// Their places on the sheet.
+    /// The positions of both ends on the sheet.
     places: (f64, f64),
     /// Where zero is drawn.
     zero: Option<f64>,
@@ -29,7 +29,7 @@ impl Axis {
         let (low, high) = positive.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
         let decades = if high > 0.0 {
             let low = floor(log10(low)) as i32;
-            // A value on the upper end needs no decade of its own.
+            // A value at the upper end needs no further decade.
             (low, (libm::ceil(log10(high)) as i32).max(low + 1))
         } else {
             (0, 1)
@@ -60,7 +60,7 @@ impl Axis {
         Self { decades: (0, 1), places, zero: None, linear: Some(high) }
     }
 
-    /// The place of a value. Zero has its band, where there is one; what is beyond an end is at that end.
+    /// The position of a value. Zero is in its band, if there is one; values beyond an end are at that end.
     pub fn at(&self, value: f64) -> f64 {
         if let (Some(zero), true) = (self.zero, value == 0.0) {
             return zero;
@@ -73,12 +73,12 @@ impl Axis {
         self.places.0 + part.clamp(0.0, 1.0) * (self.places.1 - self.places.0)
     }
 
-    /// Where the band of zero lies, and where it ends.
+    /// The position of zero, and the end of its band.
     pub fn zero(&self) -> Option<(f64, f64)> {
         self.zero.map(|place| (place, self.places.0))
     }
 
-    /// The values to be labelled: as many as fit, and none that would stand beside the name of zero.
+    /// The values to be labelled: as many as fit, without one next to the label of zero.
     pub fn ticks(&self, most: usize) -> Vec<f64> {
         let lines = self.lines();
         let step = lines.len().div_ceil(most.max(2)).max(1);

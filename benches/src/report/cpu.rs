@@ -1,4 +1,4 @@
-//! The processor's name, for people and for a folder.
+//! The processor's name, as text and as a folder name.
 
 /// The processor that this program runs on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub struct Processor {
 }
 
 impl Processor {
-    /// What the system says of it: on Linux `/proc/cpuinfo`, elsewhere no more than its architecture.
+    /// As reported by the system: on Linux from `/proc/cpuinfo`, elsewhere only the architecture.
     pub fn here() -> Self {
         let said = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         Self::from_cpuinfo(&said)
@@ -35,7 +35,7 @@ impl Processor {
         if name.is_empty() {
             name = std::env::consts::ARCH.to_string();
         }
-        // A virtual machine may keep its number to itself; family and model say what it is.
+        // A virtual machine may hide the model number; family and model identify the generation.
         if let (false, Some(zen)) =
             (name.contains(|c: char| c.is_ascii_digit()), zen(number("cpu family"), number("model")))
         {
@@ -44,7 +44,7 @@ impl Processor {
         Self { name, is_virtual: of("flags").split_whitespace().any(|flag| flag == "hypervisor") }
     }
 
-    /// Its name as that of a folder.
+    /// Its name as a folder name.
     ///
     /// ```
     /// use asunder_benches::report::cpu::Processor;
@@ -58,7 +58,7 @@ impl Processor {
     }
 }
 
-/// A model's name without marks, clock and words that say nothing.
+/// A model's name without trademarks, clock rate and words without meaning.
 fn plain(name: &str) -> String {
     let name = name.replace("(R)", "").replace("(TM)", "").replace("(tm)", "");
     let name = name.split('@').next().unwrap_or("");

@@ -1,4 +1,4 @@
-//! What was measured, as plain rows in CSV files of one folder: all that the page is drawn from.
+//! Measured data, as plain rows in CSV files of one folder: all that the page is drawn from.
 
 use super::kept::KeptRow;
 use super::origin::Origin;
@@ -12,13 +12,13 @@ use std::path::Path;
 /// A section of the page, and a file of the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Section {
-    /// Time of every method against its error.
+    /// The time of every method against its error.
     Error,
-    /// Wrong answers by the width of the gap.
+    /// Wrong answers by the size of the gap.
     Gap,
-    /// How steady answers are.
+    /// How stable answers are.
     Stability,
-    /// All pairs of boxes.
+    /// All overlapping pairs of boxes.
     Broad,
     /// Whole frames.
     Frame,
@@ -31,7 +31,7 @@ impl Section {
     pub const ALL: [Self; 6] =
         [Self::Error, Self::Gap, Self::Stability, Self::Broad, Self::Frame, Self::Vertices];
 
-    /// Its name: of its file, its anchor and its option.
+    /// Its name, also used for its file, anchor and option.
     ///
     /// ```
     /// use asunder_benches::report::Section;
@@ -57,13 +57,13 @@ impl Section {
 /// All rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Data {
-    /// Where each section comes from.
+    /// The origin of each section.
     pub origins: Vec<Origin>,
     /// Time and error.
     pub error: Vec<ErrorRow>,
     /// Wrong answers by gap.
     pub gap: Vec<GapRow>,
-    /// Steadiness.
+    /// Stability.
     pub stability: Vec<StabilityRow>,
     /// Broad phase.
     pub broad: Vec<BroadRow>,
@@ -71,20 +71,20 @@ pub struct Data {
     pub frame: Vec<FrameRow>,
     /// Vertices.
     pub vertices: Vec<VertexRow>,
-    /// Rows of `compare`; they are in no section of the page, but in README.
+    /// Rows of `compare`, which are in no section of the page, but in README.
     pub kept: Vec<KeptRow>,
 }
 
-/// The file that says where each section comes from.
+/// The file with the origin of each section.
 const ORIGINS: &str = "origin";
-/// The file of what `compare` kept.
+/// The file with the rows that `compare` saved.
 const KEPT: &str = "compare";
 
 impl Data {
-    /// Reads a folder. Files that are not there have no rows.
+    /// Reads a folder. Files that do not exist give no rows.
     ///
     /// # Errors
-    /// A file that cannot be read, or is no such table.
+    /// A file that cannot be read, or is not such a table.
     pub fn read(folder: &Path) -> Result<Self, Box<dyn Error>> {
         Ok(Self {
             origins: read(folder, ORIGINS)?,
@@ -98,7 +98,7 @@ impl Data {
         })
     }
 
-    /// Writes all that has rows into a folder, which is made if need be. Other files stay as they are.
+    /// Writes all tables that have rows into a folder, which is made if needed. Other files stay as they are.
     ///
     /// # Errors
     /// The folder or a file cannot be written.
@@ -114,12 +114,12 @@ impl Data {
         write(folder, ORIGINS, &self.origins)
     }
 
-    /// Where a section comes from.
+    /// The origin of a section.
     pub fn origin(&self, section: Section) -> Option<&Origin> {
         self.origins.iter().find(|origin| origin.section == section.name())
     }
 
-    /// Notes where a section comes from, in place of what was known.
+    /// Sets the origin of a section, in place of an older one.
     pub fn set_origin(&mut self, origin: Origin) {
         self.origins.retain(|known| known.section != origin.section);
         self.origins.push(origin);
@@ -150,7 +150,7 @@ fn write<T: Serialize>(folder: &Path, name: &str, rows: &[T]) -> Result<(), Box<
 mod tests {
     use super::*;
 
-    /// A folder of its own, gone when dropped.
+    /// A temporary folder, which is deleted when dropped.
     struct Folder(std::path::PathBuf);
 
     impl Folder {

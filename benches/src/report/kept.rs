@@ -1,4 +1,4 @@
-//! Rows of `compare` that were kept, and what they say.
+//! Saved rows of `compare`, and their text in tables.
 
 use super::names::{count, error};
 use super::origin::{commit, today};
@@ -20,45 +20,45 @@ pub struct KeptRow {
     pub ours_ns: Option<f64>,
     /// The peer's time, in nanoseconds.
     pub peer_ns: Option<f64>,
-    /// Quartiles of our time, where there were several rounds.
+    /// Lower quartile of our time, where there were several rounds.
     #[serde(default)]
     pub ours_low_ns: Option<f64>,
-    /// The upper one.
+    /// Upper quartile of our time.
     #[serde(default)]
     pub ours_high_ns: Option<f64>,
-    /// Quartiles of the peer's time.
+    /// Lower quartile of the peer's time.
     #[serde(default)]
     pub peer_low_ns: Option<f64>,
-    /// The upper one.
+    /// Upper quartile of the peer's time.
     #[serde(default)]
     pub peer_high_ns: Option<f64>,
-    /// Answers that were held against the truth.
+    /// How many answers were compared with the truth.
     pub judged: Option<u64>,
     /// Our largest error, as a share of size.
     pub max_error: Option<f64>,
-    /// Our answers that are off.
+    /// How many of our answers are off.
     pub off: Option<u64>,
-    /// Contacts that we miss.
+    /// How many contacts we miss.
     pub missed: Option<u64>,
     /// The peer's largest error.
     pub peer_max_error: Option<f64>,
-    /// The peer's answers that are off.
+    /// How many of the peer's answers are off.
     pub peer_off: Option<u64>,
-    /// Contacts that the peer misses.
+    /// How many contacts the peer misses.
     pub peer_missed: Option<u64>,
-    /// What a reader should know.
+    /// Remarks for the reader.
     pub note: String,
-    /// The commit it was measured at.
+    /// The commit at which it was measured.
     pub commit: String,
-    /// The day.
+    /// The date.
     pub date: String,
 }
 
-/// Asked for once: it is another program that knows.
+/// Queried only once, since another program has to be run.
 static COMMIT: OnceLock<String> = OnceLock::new();
 
 impl KeptRow {
-    /// A row that was measured now.
+    /// A row that has just been measured.
     ///
     /// ```
     /// use asunder_benches::{report::KeptRow, row::Row};
@@ -93,17 +93,17 @@ impl KeptRow {
         }
     }
 
-    /// Our time, and its quartiles where they are known.
+    /// Our time, with its quartiles where they are known.
     pub(super) fn ours(&self) -> Option<Spread> {
         self.ours_ns.map(|ns| spread(ns, self.ours_low_ns, self.ours_high_ns))
     }
 
-    /// The peer's.
+    /// The peer's time, likewise.
     pub(super) fn peer(&self) -> Option<Spread> {
         self.peer_ns.map(|ns| spread(ns, self.peer_low_ns, self.peer_high_ns))
     }
 
-    /// What both sides' answers were worth, or what the row says of itself.
+    /// The accuracy of both sides' answers, or the row's own note.
     pub(super) fn found(&self) -> String {
         let Some(max_error) = self.max_error else { return self.note.clone() };
         if self.row.ends_with("/boolean") && max_error == 0.0 {
@@ -124,7 +124,7 @@ impl KeptRow {
     }
 }
 
-/// Puts rows in place of those of the same part and name, or behind all others.
+/// Replaces rows of the same part and name, and appends the others.
 ///
 /// ```
 /// use asunder_benches::report::{KeptRow, kept::put};
@@ -146,7 +146,7 @@ fn spread(ns: f64, low: Option<f64>, high: Option<f64>) -> Spread {
     Spread::new(ns, low.unwrap_or(ns), high.unwrap_or(ns))
 }
 
-/// What the judge found in all rows of the narrow phase, and where the rows come from. Nothing where none is kept.
+/// The accuracy over all rows of the narrow phase, and the origin of the rows; empty if there are none.
 pub(super) fn together(rows: &[KeptRow]) -> String {
     if rows.is_empty() {
         return String::new();

@@ -1,4 +1,4 @@
-//! Where somebody else is ahead: found in the rows, sentence by sentence.
+//! Losses: where another method is ahead of ours, found in the rows, one sentence each.
 
 use super::kept::KeptRow;
 use super::names::{count, dimension, duration, error, number, short, size, words};
@@ -7,7 +7,7 @@ use crate::broad::rows::BroadRow;
 use crate::error::{ErrorRow, GapRow, StabilityRow, VertexRow};
 use crate::world::rows::FrameRow;
 
-/// Distinct keys, in the order in which they first come.
+/// Distinct keys, in the order of their first occurrence.
 pub fn distinct<T, K: PartialEq>(rows: &[T], key: impl Fn(&T) -> K) -> Vec<K> {
     let mut keys: Vec<K> = Vec::new();
     for row in rows {
@@ -19,8 +19,8 @@ pub fn distinct<T, K: PartialEq>(rows: &[T], key: impl Fn(&T) -> K) -> Vec<K> {
     keys
 }
 
-/// Whoever is faster than our certain answers, or eight of them at once, with less error: what that costs in wrong
-/// answers stands beside it. At the end, whoever is only faster.
+/// Methods that are faster than our certain answers, or than eight of them at once, and have less error; each with its
+/// wrong answers. At the end, methods that are only faster.
 ///
 /// ```
 /// use asunder_benches::{error::ErrorRow, report::losses};
@@ -59,7 +59,7 @@ pub fn of_error(rows: &[ErrorRow]) -> Vec<String> {
     said
 }
 
-/// By how much, and at what price.
+/// By how much it is ahead, and at what price.
 fn ahead_of(other: &ErrorRow, ours: &ErrorRow) -> String {
     let wrong = |row: &ErrorRow| match (row.wrong_per_100k, row.refused) {
         (0.0, 0) => "never wrong".to_string(),
@@ -98,7 +98,7 @@ pub fn of_gap(rows: &[GapRow]) -> Vec<String> {
     said
 }
 
-/// Whoever is steadier than our certain method, by the 99th percentile and by more than two figures show.
+/// Methods more stable than our certain method, by the 99th percentile and by more than two digits show.
 pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (measure, shape) in distinct(rows, |row| (row.measure.clone(), row.shape.clone())) {
@@ -124,7 +124,7 @@ pub fn of_stability(rows: &[StabilityRow]) -> Vec<String> {
     said
 }
 
-/// The fastest way of a method on so many threads.
+/// The fastest variant of a method on so many threads.
 pub fn best<'a>(
     rows: &'a [BroadRow],
     key: (&str, u64, &str),
@@ -136,7 +136,7 @@ pub fn best<'a>(
     here.filter(|row| row.clock == clock && row.threads == threads).min_by(|a, b| a.ns.total_cmp(&b.ns))
 }
 
-/// Scenes and sizes at which the peer finds all pairs sooner, or our second thread costs time beyond the noise.
+/// Scenes and sizes at which the peer finds all pairs faster, or a second thread of ours costs time beyond the noise.
 pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (scene, boxes) in distinct(rows, |row| (row.scene.clone(), row.boxes)) {
@@ -166,8 +166,7 @@ pub fn of_broad(rows: &[BroadRow]) -> Vec<String> {
     said
 }
 
-/// Sizes between which one curve falls below another, scene by scene: where the two cross, by straight lines between
-/// logarithms.
+/// The size at which one curve falls below another: where the two cross, by linear interpolation between logarithms.
 ///
 /// ```
 /// let ours = [(1000.0, 20.0), (10_000.0, 100.0)];
@@ -189,7 +188,7 @@ pub fn crossover(ours: &[(f64, f64)], theirs: &[(f64, f64)]) -> Option<f64> {
     Some(libm::exp10(n0 + (n1 - n0) * d0 / (d0 - d1)))
 }
 
-/// Scenes whose frames the peer does sooner, on one thread each; and those in which it takes less memory.
+/// Scenes in which the peer's frames are faster, on one thread each; and those in which it takes less memory.
 pub fn of_frame(rows: &[FrameRow]) -> Vec<String> {
     let mut said = Vec::new();
     for scene in distinct(rows, |row| row.scene.clone()) {
@@ -212,7 +211,7 @@ pub fn of_frame(rows: &[FrameRow]) -> Vec<String> {
     said
 }
 
-/// Scenes in which a body takes more memory than the peer's.
+/// Scenes in which our memory per body is more than the peer's.
 fn of_memory(rows: &[FrameRow]) -> Option<String> {
     let scenes: Vec<String> = distinct(rows, |row| row.scene.clone())
         .into_iter()
@@ -228,7 +227,7 @@ fn of_memory(rows: &[FrameRow]) -> Option<String> {
     (!scenes.is_empty()).then(|| format!("More memory a body than lean parry3d: {}.", scenes.join(", ")))
 }
 
-/// Rows of `compare` in which the peer takes less time, a sentence a part.
+/// Rows of `compare` in which the peer takes less time, one sentence per part.
 ///
 /// ```
 /// use asunder_benches::report::{KeptRow, losses::of_kept};
@@ -251,7 +250,7 @@ pub fn of_kept(rows: &[KeptRow]) -> Vec<String> {
     distinct(rows, |row| row.part.clone()).into_iter().filter_map(of_part).collect()
 }
 
-/// Numbers of vertices at which another method answers sooner than the fastest of ours that is never wrong.
+/// Numbers of vertices at which another method is faster than the fastest of ours that is never wrong.
 pub fn of_vertices(rows: &[VertexRow]) -> Vec<String> {
     let mut said = Vec::new();
     for (dim, operation) in distinct(rows, |row| (row.dimension.clone(), row.operation.clone())) {

@@ -1,9 +1,9 @@
-//! The same page as Markdown, beside SVG files.
+//! The same page as Markdown, with SVG files next to it.
 
 use super::page::{INTRODUCTION, losses};
 use super::sections::Chapter;
 
-/// The page of all chapters; pictures are files beside it.
+/// The page of all chapters; its pictures are files next to it.
 ///
 /// ```
 /// assert!(asunder_benches::report::markdown::to_markdown(&[]).starts_with("# "));

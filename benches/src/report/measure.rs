@@ -1,4 +1,4 @@
-//! Fills the data: each section by the module that knows how.
+//! Fills the data: each section is measured by its own module.
 
 use super::Section;
 use super::cpu::Processor;
@@ -10,17 +10,17 @@ use crate::error;
 use crate::world::{self, rows as world_rows};
 use std::error::Error;
 
-/// Threads of the rows that have more than one.
+/// The number of threads in rows with more than one.
 const THREADS: usize = 2;
 
-/// Says what is measured now, and how much of its section is done, in 0 to 1; nothing where nobody knows.
+/// Reports what is being measured, and the share of its section that is done, from 0 to 1, or `None` if unknown.
 pub type Progress<'a> = &'a (dyn Fn(&str, Option<f64>) + Sync);
 
-/// Measures one section in place of what the data had of it. Cost: one to five minutes; a tenth to a third of that if
+/// Measures one section, in place of its earlier data. Cost: one to five minutes; a tenth to a third of that if
 /// `quick`.
 ///
 /// # Errors
-/// The system gives no threads, or the library refuses the margin.
+/// The system cannot start the threads, or the library rejects the margin.
 pub fn measure(
     data: &mut Data,
     section: Section,
@@ -41,7 +41,7 @@ pub fn measure(
 }
 
 fn broad_phase(quick: bool, progress: Progress) -> Result<Vec<broad_rows::BroadRow>, Box<dyn Error>> {
-    // One thread, so that its CPU time is all the time there is.
+    // One thread, so that its CPU time is all the time spent.
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
     let effort = if quick {
         Effort { seconds: 0.05, ..Effort::quick() }

@@ -1,12 +1,12 @@
-//! One page of speed against error: measured, kept as CSV, drawn.
+//! One page of speed against error: measured, stored as CSV, and drawn.
 //!
-//! [`measure`] fills [`Data`], [`data`] keeps it as plain rows. All that follows is a function of those rows and of
-//! nothing else, byte by byte: [`sections`] says in which plots, tables and sentences a section consists, [`page`] and
-//! [`markdown`] lay them out, [`readme`] puts some of them into README, with one table that also has rows of
-//! `compare` that were [`kept`]. So a test can draw README's figures again.
+//! [`measure`] fills [`Data`], which [`data`] stores as plain rows. All that follows is a function of those rows alone,
+//! byte for byte: [`sections`] makes plots, tables and sentences of each section, [`page`] and [`markdown`] lay them
+//! out, and [`readme`] puts some of them into README, with one table that also has saved rows of `compare` ([`kept`]).
+//! So a test can draw README's figures again.
 //!
-//! [`losses`] looks for rows where somebody else is ahead. [`plots`] knows kinds of plots and no data; it draws on a
-//! [`sheet`], along [`axis`], in the looks of [`palette`].
+//! [`losses`] finds rows in which another method is ahead. [`plots`] has the kinds of plots, without any data; it draws
+//! on a [`sheet`], along an [`axis`], in the styles of [`palette`].
 
 pub mod axis;
 pub mod cpu;

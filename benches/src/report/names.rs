@@ -1,6 +1,6 @@
-//! Figures in few letters, as plots and tables show them.
+//! Short forms of figures, for plots and tables.
 
-/// A time, to two or three figures.
+/// A time, to two or three digits.
 ///
 /// ```
 /// use asunder_benches::report::names::duration;
@@ -18,7 +18,7 @@ pub fn duration(ns: f64) -> String {
     format!("{} {unit}", short(value))
 }
 
-/// A time that is a round number: a place on an axis.
+/// A time that is a round number, for an axis.
 ///
 /// ```
 /// use asunder_benches::report::names::round;
@@ -28,7 +28,7 @@ pub fn round(ns: f64) -> String {
     duration(ns).replace(".0 ", " ")
 }
 
-/// A number to two figures, or more before the point.
+/// A number to two digits, or more before the point.
 ///
 /// ```
 /// use asunder_benches::report::names::short;
@@ -42,7 +42,7 @@ pub fn short(value: f64) -> String {
     }
 }
 
-/// An error, as a power of ten with one figure before it.
+/// An error: one digit and a power of ten.
 ///
 /// ```
 /// use asunder_benches::report::names::error;
@@ -55,7 +55,7 @@ pub fn error(value: f64) -> String {
     if value.is_finite() { format!("{value:.0e}") } else { "no number".to_string() }
 }
 
-/// Any number in few letters: plain where that is short, else as [`error`].
+/// Any number in short: plain where that is short, else as [`error`].
 ///
 /// ```
 /// use asunder_benches::report::names::number;
@@ -87,7 +87,7 @@ pub fn count(value: u64) -> String {
     grouped
 }
 
-/// A power of ten as an axis of counts names it.
+/// A power of ten as a label on an axis of counts.
 ///
 /// ```
 /// use asunder_benches::report::names::size;
@@ -101,7 +101,7 @@ pub fn size(value: u64) -> String {
     }
 }
 
-/// What a family of pairs is called, in words.
+/// The name of a family of pairs, in words.
 ///
 /// ```
 /// assert_eq!(asunder_benches::report::names::words("near-touching"), "near touching");
@@ -110,7 +110,7 @@ pub fn words(name: &str) -> String {
     name.replace(['-', '_'], " ")
 }
 
-/// A dimension as prose has it: `3D`.
+/// A dimension as in prose: `3D`.
 pub fn dimension(name: &str) -> String {
     name.to_uppercase()
 }

@@ -1,4 +1,4 @@
-//! Where figures come from: command, machine, versions, date.
+//! The origin of figures: command, machine, versions, date.
 
 use super::Section;
 use super::cpu::Processor;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::process::Command;
 use std::time::SystemTime;
 
-/// Where the figures of one section come from.
+/// The origin of the figures of one section.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// The section's name.
@@ -17,9 +17,9 @@ pub struct Origin {
     pub cpu: String,
     /// How many cores the program saw.
     pub cores: u64,
-    /// `virtual` where the machine is.
+    /// `virtual` if the machine is virtual, else empty.
     pub kind: String,
-    /// The system, and its processor's kind.
+    /// The operating system, and the architecture.
     pub os: String,
     /// Version of asunder.
     pub asunder: String,
@@ -27,14 +27,14 @@ pub struct Origin {
     pub parry3d: String,
     /// Version of the compiler.
     pub rustc: String,
-    /// The commit, with a plus where something had been changed since; empty where there is none.
+    /// The commit, with a plus if files had been changed since; empty if unknown.
     pub commit: String,
-    /// The day, as `2026-11-22`.
+    /// The date, as `2026-11-22`.
     pub date: String,
 }
 
 impl Origin {
-    /// The origin of what is measured now.
+    /// The origin of figures measured now.
     pub fn now(section: Section, processor: &Processor, is_quick: bool) -> Self {
         let quick = if is_quick { " --quick" } else { "" };
         let name = section.name();
@@ -58,7 +58,7 @@ impl Origin {
         }
     }
 
-    /// Machine and day in a line.
+    /// The machine in one line.
     ///
     /// ```
     /// use asunder_benches::report::origin::Origin;
@@ -72,7 +72,7 @@ impl Origin {
         format!("{}, {} {kind}{cores}, {}", self.cpu, self.cores, self.os)
     }
 
-    /// Versions in a line.
+    /// Versions in one line.
     pub fn versions(&self) -> String {
         let Self { asunder, parry3d, rustc, commit, .. } = self;
         let commit = if commit.is_empty() { String::new() } else { format!(" at {commit}") };
@@ -88,22 +88,22 @@ fn locked_version(package: &str) -> &'static str {
     rest.split('"').next().unwrap_or("")
 }
 
-/// The commit, with a plus where something was changed since; empty where there is none.
+/// The commit, with a plus if files were changed since; empty if unknown.
 pub(super) fn commit() -> String {
     let git = |arguments: &[&str]| said_by("git", &[&["-C", env!("CARGO_MANIFEST_DIR")], arguments].concat());
     let commit = git(&["rev-parse", "--short=9", "HEAD"]);
-    // Rows that were saved a minute ago are no change of what is measured.
+    // Rows saved by an earlier run do not change what is measured.
     let changed = git(&["status", "--porcelain", "--", ":/", ":(top,exclude)benches/results"]);
     if changed.is_empty() { commit } else { format!("{commit}+") }
 }
 
-/// What a program prints; nothing if it cannot be run.
+/// The output of a program; empty if it cannot be run.
 fn said_by(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).output().ok().filter(|output| output.status.success());
     output.map_or_else(String::new, |output| String::from_utf8_lossy(&output.stdout).trim().to_string())
 }
 
-/// The day, as `2026-11-22`.
+/// Today's date, as `2026-11-22`.
 pub(super) fn today() -> String {
     day(seconds_since_1970())
 }
@@ -112,7 +112,7 @@ fn seconds_since_1970() -> u64 {
     SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
 
-/// The day of a time, by the Gregorian calendar. The way from days to dates is Howard Hinnant's, `civil_from_days`.
+/// The date of a time, by the Gregorian calendar. The algorithm is Howard Hinnant's `civil_from_days`.
 fn day(seconds: u64) -> String {
     let days = seconds / 86_400 + 719_468;
     let (era, of_era) = (days / 146_097, days % 146_097);

@@ -1,9 +1,9 @@
-//! One HTML file that needs nothing beside it.
+//! The page as one HTML file that needs no others.
 
 use super::sections::Chapter;
 use super::table::escaped;
 
-/// Narrow screens get one plot a row, wide ones as many as fit; tables scroll by themselves.
+/// Narrow screens get one plot per row, wide ones as many as fit; tables scroll on their own.
 const STYLE: &str = "
 :root { color-scheme: light; }
 body { margin: 0 auto; max-width: 1360px; padding: 0 12px 48px; background: #fff; color: #1a1a1a;
@@ -51,7 +51,7 @@ pub fn to_html(chapters: &[Chapter]) -> String {
     )
 }
 
-/// What holds of all sections.
+/// What applies to all sections.
 pub(super) const INTRODUCTION: &str = "Every figure is measured by the command that stands with its section, on the \
     machine named there. Times are medians; whiskers are quartiles. A hollow mark, or ± in a table, means that the \
     quartiles are more than 20 % of the median apart: do not lean on it. Colours mean the same method everywhere.";
@@ -85,7 +85,7 @@ fn chapter(chapter: &Chapter) -> String {
     )
 }
 
-/// The sentences on losses, of which there is always one.
+/// The sentences on losses; there is always at least one.
 pub(super) fn losses(chapter: &Chapter) -> &[String] {
     static NOWHERE: std::sync::LazyLock<[String; 1]> =
         std::sync::LazyLock::new(|| ["Nowhere in this data.".to_string()]);

@@ -1,41 +1,41 @@
-//! Who looks how: one colour for one method, everywhere. The colours are those of Okabe and Ito, which people of every
-//! kind of colour vision tell apart; forms tell families apart where colours do not.
+//! The look of methods: one colour for each, in all plots. The colours are those of Okabe and Ito, which are distinct
+//! for every kind of colour vision; marks distinguish families where colours do not.
 
 use plotters::style::RGBColor;
 
-/// The form of a point.
+/// The mark for a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// Ours.
     Disc,
     /// The peer's.
     Square,
-    /// Textbook's.
+    /// The textbook's.
     Triangle,
 }
 
 /// How one method is drawn and named.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
-    /// Its name beside a point or a line.
+    /// Its name, next to a point or a line.
     pub name: String,
     /// Its colour.
     pub color: RGBColor,
-    /// Its form.
+    /// Its mark.
     pub mark: Mark,
 }
 
 /// The colour of text.
 pub const INK: RGBColor = RGBColor(26, 26, 26);
-/// The colour of what is said by the way.
+/// The colour of secondary text.
 pub const PALE: RGBColor = RGBColor(90, 90, 90);
-/// The colour of lines to read by.
+/// The colour of grid lines.
 pub const GRID: RGBColor = RGBColor(224, 224, 224);
 /// The colour of our main method.
 pub const OURS: RGBColor = RGBColor(0, 114, 178);
 /// The colour of the peer.
 pub const PEER: RGBColor = RGBColor(213, 94, 0);
-/// Colours of the stages of a frame, in their order, and of the rest of it: from one hue, so that they are nobody's.
+/// Colours of the stages of a frame, in order, and of the rest of it: shades of one hue that no method has.
 pub const STAGES: [RGBColor; 6] = [
     RGBColor(198, 219, 239),
     RGBColor(107, 174, 214),
@@ -45,7 +45,7 @@ pub const STAGES: [RGBColor; 6] = [
     RGBColor(204, 204, 204),
 ];
 
-/// The look of a method by its name in the data. Who is not known is grey, and has its own name.
+/// The look of a method, by its name in the data. An unknown method is grey, and has its own name.
 ///
 /// ```
 /// use asunder_benches::report::palette::{OURS, look};
@@ -78,7 +78,7 @@ pub fn is_ours(method: &str) -> bool {
     ["certain", "asunder", "fast", "batched-boxes"].contains(&method)
 }
 
-/// Where a method stands in a list: ours first, then textbook's, then the peer's; who is not known last.
+/// The rank of a method in lists: ours first, then the textbook's, then the peer's; unknown ones last.
 pub fn rank(method: &str) -> usize {
     const ORDER: [&str; 10] = [
         "asunder",

@@ -1,5 +1,5 @@
-//! README's part: four plots, one table of headlines and the rest folded away, and the losses, between two marks, from
-//! saved data alone.
+//! README's part, between two marks, from saved data alone: four plots, one table of headlines with the rest folded
+//! away, and the losses.
 
 use super::data::{Data, Section};
 use super::losses::of_kept;
@@ -7,12 +7,12 @@ use super::origin::Origin;
 use super::sections::{Figure, chapters};
 use super::summary;
 
-/// The plots, by their files.
+/// The plots, by file name.
 const PLOTS: [&str; 4] = ["error-3d-near-touching", "gap-3d-apart", "broad-gas", "frame-stages"];
-/// Where they lie, from the root.
+/// Their folder, relative to the root.
 pub const FOLDER: &str = "docs/figures";
 
-/// Who is who in the plots and in the losses.
+/// The names of methods in the plots and in the losses.
 const METHODS: &str = "In the plots and below, *asunder* is `Pair3::separation` and its like, *asunder 8 boxes* the same for eight pairs of boxes at \
     once (`separations3`), and *asunder guess* what the first tier of precision alone would say (`guess`), to show what the others are \
     for: no world uses it. *Textbook* is a plain separating axis test, *lean parry3d* a small world over parry3d's tree and \
@@ -21,7 +21,7 @@ const METHODS: &str = "In the plots and below, *asunder* is `Pair3::separation` 
 const BEGIN: &str = "<!-- figures:begin ";
 const END: &str = "<!-- figures:end -->";
 
-/// The folder of data that a README names in its first mark.
+/// The folder of data that README names in its first mark.
 ///
 /// ```
 /// use asunder_benches::report::readme::data_of;
@@ -33,8 +33,8 @@ pub fn data_of(page: &str) -> Option<&str> {
     page.split_once(BEGIN)?.1.split_once(" -->").map(|(folder, _)| folder)
 }
 
-/// A README whose part between the marks is made anew, with the folder that it is made of. Nothing if there are no two
-/// marks, in that order, each once.
+/// README with the part between the marks replaced, and the folder of its data in the first mark. `None` unless there
+/// are both marks, in order, each once.
 pub fn spliced(page: &str, folder: &str, part: &str) -> Option<String> {
     let (before, rest) = page.split_once(BEGIN)?;
     let (_, after) = rest.split_once(END)?;
@@ -44,13 +44,13 @@ pub fn spliced(page: &str, folder: &str, part: &str) -> Option<String> {
     Some(format!("{before}{BEGIN}{folder} -->\n{part}{END}{after}"))
 }
 
-/// The plots that README shows, in its order; those that the data has no rows for are left out.
+/// The plots that README shows, in its order; plots without rows are left out.
 pub fn figures(data: &Data) -> Vec<Figure> {
     let all: Vec<Figure> = chapters(data).into_iter().flat_map(|chapter| chapter.figures).collect();
     PLOTS.iter().filter_map(|file| all.iter().find(|figure| figure.file == *file).cloned()).collect()
 }
 
-/// README's part: plots, table, losses, and where they come from.
+/// README's part: plots, table, losses, and their origins.
 pub fn part(data: &Data) -> String {
     let plots: String = figures(data)
         .iter()
@@ -70,7 +70,7 @@ pub fn part(data: &Data) -> String {
     )
 }
 
-/// Machines, versions and days: once, where all sections have the same.
+/// Machines, versions and dates; only once if they are the same for all sections.
 fn origins(data: &Data) -> String {
     let said = |origin: &Origin| {
         let quick = if origin.command.contains("--quick") { "; a quick run" } else { "" };
@@ -91,7 +91,7 @@ fn origins(data: &Data) -> String {
     format!("{}.", parts.join(". "))
 }
 
-/// All losses, folded away section by section.
+/// All losses, folded away by section.
 fn behind(data: &Data) -> String {
     let chapters = chapters(data);
     let mut text = "**Where asunder is behind**, found in the same data:\n".to_string();

@@ -1,4 +1,4 @@
-//! The sections of the page, from rows to plots, tables and sentences.
+//! The sections of the page: from rows to plots, tables and sentences.
 
 mod broad;
 mod error;
@@ -14,9 +14,9 @@ use super::table::Table;
 /// A plot of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Its file, without ending.
+    /// Its file name, without extension.
     pub file: String,
-    /// What it answers.
+    /// The question it answers.
     pub question: String,
     /// The SVG.
     pub svg: String,
@@ -25,25 +25,25 @@ pub struct Figure {
 /// One section, ready to be laid out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
-    /// Which it is.
+    /// The section.
     pub section: Section,
     /// Its heading.
     pub heading: String,
-    /// How its figures are to be read, and how they were taken.
+    /// How its figures are to be read, and how they were measured.
     pub method: String,
     /// Its plots.
     pub figures: Vec<Figure>,
-    /// What follows from the data, other than losses.
+    /// Findings from the data, other than losses.
     pub findings: Vec<String>,
-    /// Where others are ahead.
+    /// Where other methods are ahead.
     pub losses: Vec<String>,
     /// Its tables.
     pub tables: Vec<Table>,
-    /// Where it comes from.
+    /// The origin of its data.
     pub origin: Option<Origin>,
 }
 
-/// A chapter before it is known which section it is of.
+/// A chapter without the fields that are known from its section.
 #[derive(Default)]
 struct Draft {
     heading: &'static str,
@@ -78,13 +78,13 @@ pub fn chapters(data: &Data) -> Vec<Chapter> {
         .collect()
 }
 
-/// What a table says of a time: the median, and a mark where its noise is wide.
+/// A time in a table: the median, with a mark where the noise is wide.
 fn marked(median: f64, low: f64, high: f64) -> String {
     let time = super::names::duration(median);
     if super::spread::is_wide(median, low, high) { format!("{time} ±") } else { time }
 }
 
-/// What rows say of themselves, each once, after the name of what they are about.
+/// The rows' notes, each once, after the name of what they are about.
 fn remarks<'a>(notes: impl Iterator<Item = (String, &'a str)>) -> Vec<String> {
     let said: Vec<String> =
         notes.filter(|(_, note)| !note.is_empty()).map(|(of, note)| format!("{of}: {note}.")).collect();

@@ -1,4 +1,5 @@
-//! A sheet to draw on: plotters' SVG backend, in units of which a plot is 440 wide, a quarter of one the finest step.
+//! A sheet to draw on: plotters' SVG backend, in units of which a plot is 440 wide, with a resolution of a quarter
+//! unit.
 
 use super::palette::{Mark, PALE};
 use plotters::prelude::{DrawingBackend, IntoTextStyle, RGBColor, SVGBackend, ShapeStyle};
@@ -7,19 +8,19 @@ use plotters::style::{Color, FontStyle};
 
 /// The width of every plot.
 pub const WIDTH: f64 = 440.0;
-/// Size of the letters of most labels.
+/// The font size of most labels.
 pub const TEXT: f64 = 12.5;
-/// Size of the letters of a title.
+/// The font size of a title.
 pub const TITLE: f64 = 15.0;
 
-/// Steps in a unit: the backend draws on whole numbers.
+/// Steps per unit, since the backend draws on whole numbers.
 const FINE: f64 = 4.0;
-/// The backend writes sizes of letters divided by this.
+/// The backend divides font sizes by this when it writes them.
 const LETTERS: f64 = 1.24;
-/// Width of a letter over its size, on the average of a sans-serif face, and a little more.
+/// The average width of a letter over its size, in a sans-serif font, and a little more.
 const LETTER_WIDTH: f64 = 0.54;
 
-/// Where a text hangs on its place.
+/// How a text is aligned to its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hang {
     /// It begins there.
@@ -30,7 +31,7 @@ pub enum Hang {
     End,
 }
 
-/// Draws a plot: its SVG, `height` units high. The same drawing gives the same bytes.
+/// Draws a plot and returns its SVG, `height` units high. Equal drawings give equal bytes.
 ///
 /// ```
 /// use asunder_benches::report::sheet::draw;
@@ -52,7 +53,7 @@ pub fn draw(name: &str, height: f64, plot: impl FnOnce(&mut Sheet)) -> String {
     svg.replacen(&fine, &head, 1).replacen("xmlns=\"http://www.w3.org/2000/svg\"", &spoken, 1)
 }
 
-/// The width of a text of letters of this size, roughly: no font is at hand.
+/// The approximate width of a text in this font size: no font is available.
 ///
 /// ```
 /// use asunder_benches::report::sheet::width_of;
@@ -62,7 +63,7 @@ pub fn width_of(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * size * LETTER_WIDTH
 }
 
-/// A sheet. Nothing drawn on it can fail: it is a string.
+/// A sheet. Drawing on it cannot fail, since it is a string.
 pub struct Sheet<'a> {
     backend: SVGBackend<'a>,
 }
@@ -105,7 +106,7 @@ impl Sheet<'_> {
         let _ = self.backend.draw_rect(fine(from), fine(to), &color, true);
     }
 
-    /// A point of some form; hollow where its noise is wide.
+    /// A point with some mark; hollow where its noise is wide.
     pub fn mark(&mut self, place: (f64, f64), mark: Mark, (color, hollow): (RGBColor, bool)) {
         let (x, y) = place;
         let inner = if hollow { RGBColor(255, 255, 255) } else { color };
@@ -127,7 +128,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// A text, its middle at the height of its place.
+    /// A text, vertically centred on its place.
     pub fn text(&mut self, text: &str, place: (f64, f64), hang: Hang, (color, size): (RGBColor, f64)) {
         self.letters(text, place, hang, (color, size), FontStyle::Normal);
     }

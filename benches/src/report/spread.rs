@@ -1,11 +1,11 @@
-//! What the noise of a row is, and who is beaten by nobody.
+//! The noise of rows, and Pareto fronts.
 
 use crate::clock::Spread;
 
-/// Quartiles further apart than this part of the median are marked, in plots and in tables.
+/// Quartiles further apart than this share of the median are marked, in plots and in tables.
 pub const WIDE: f64 = 0.2;
 
-/// Whether the middle half of the samples is spread over more than [`WIDE`] of the median.
+/// Whether the quartiles are further apart than [`WIDE`] of the median.
 ///
 /// ```
 /// use asunder_benches::report::spread::is_wide;
@@ -15,7 +15,7 @@ pub const WIDE: f64 = 0.2;
 /// ```
 pub fn is_wide(median: f64, low: f64, high: f64) -> bool {
     let is_steady = high - low <= WIDE * median;
-    // A comparison with what is no number is false, and must not pass for steady.
+    // A comparison with NaN is false, and must not count as steady.
     !is_steady
 }
 
@@ -31,14 +31,14 @@ impl Spread {
         Self::new(self.median * factor, self.low * factor, self.high * factor)
     }
 
-    /// Whether it is marked: [`is_wide`].
+    /// Whether it is to be marked: see [`is_wide`].
     pub fn is_wide(self) -> bool {
         is_wide(self.median, self.low, self.high)
     }
 }
 
-/// The points that no other is at least as good as in both coordinates, and better in one; less is better. Indices in
-/// order of the first coordinate, then of the second. Points that are no numbers are never among them.
+/// The Pareto front: the points that no other point dominates, where less is better in both coordinates. Indices in
+/// order of the first coordinate, then of the second. Points with a NaN are left out.
 ///
 /// ```
 /// use asunder_benches::report::spread::pareto_front;

@@ -1,4 +1,4 @@
-//! README's one table: a row for rows that are alike, with the ratios of the others in one of its cells.
+//! README's one table: similar rows share a line, with the ratios of the others in one of its cells.
 
 use super::data::Data;
 use super::kept::KeptRow;
@@ -9,12 +9,12 @@ use crate::broad::rows::BroadRow;
 use crate::clock::Spread;
 use crate::error::{ErrorRow, VertexRow};
 
-/// What stands below the table.
+/// The text below the table.
 pub(super) const READING: &str = "Ratio: parry3d's time over asunder's, in bold where parry3d is ahead. Similar rows: the same \
     ratio for each, or asunder's time where there is no peer. ± marks medians whose quartiles are more than 20 % apart, and \
     ratios of such medians.";
 
-/// Rows that README shows first; the others it folds away. Chosen by what games ask most, not by who is ahead.
+/// Rows that README shows first; the others are folded away. Chosen by what games use most, not by who is ahead.
 const HEADLINES: [&str; 16] = [
     "`3D, near touching`",
     "`box/mixed/boolean`",
@@ -46,22 +46,22 @@ pub(super) fn tables(data: &Data) -> [Table; 2] {
 
 /// One measured row.
 struct Measured {
-    /// Rows of one name here are alike.
+    /// Rows with the same group are similar and share a line.
     group: String,
-    /// What sets it apart from those.
+    /// What distinguishes it from the others of its group.
     label: String,
-    /// Its name when it stands for them.
+    /// Its name if it represents the group.
     name: String,
-    /// It stands for its group rather than the first one.
+    /// Whether it represents its group, instead of the first row.
     is_lead: bool,
-    /// Our time; nothing if we were broken off.
+    /// Our time; `None` if we were aborted.
     ours: Option<Spread>,
     peer: Option<Spread>,
-    /// What was found besides.
+    /// Other findings.
     found: String,
 }
 
-/// One table of both sides' times, and what they found.
+/// One table of both sides' times and findings.
 fn table(data: &Data) -> Table {
     let head = ["row", "asunder", "parry3d", "ratio", "similar rows", "error / size; other findings"];
     let mut table = Table::new("", &head);
@@ -84,7 +84,7 @@ fn table(data: &Data) -> Table {
     table
 }
 
-/// One line for rows that are alike.
+/// One line for similar rows.
 fn line(alike: &[&Measured]) -> Option<Vec<String>> {
     let lead = alike.iter().position(|row| row.is_lead).unwrap_or(0);
     let row = alike.get(lead)?;
@@ -106,14 +106,14 @@ fn time(spread: Spread) -> String {
     format!("{}{mark}", duration(spread.median))
 }
 
-/// The peer's time over ours.
+/// The peer's time divided by ours.
 fn ratio(row: &Measured) -> Option<String> {
     let (ours, peer) = row.ours.zip(row.peer)?;
     let times = format!("{:.2}", peer.median / ours.median);
     Some(if peer.median < ours.median { format!("**{times}**") } else { times })
 }
 
-/// What is said of a row for which another one stands.
+/// The short form of a row that another one represents.
 fn in_short(row: &Measured) -> String {
     let is_noisy = row.ours.is_some_and(Spread::is_wide) || row.peer.is_some_and(Spread::is_wide);
     let told = match (ratio(row), row.ours) {
@@ -121,7 +121,7 @@ fn in_short(row: &Measured) -> String {
         (None, Some(ours)) => time(ours),
         (None, None) => "broken off".to_string(),
     };
-    // What is wrong with a row must not go unseen.
+    // Faults of a row must remain visible.
     if row.found.contains("DIFFER") { format!("{told} ({})", row.found) } else { told }
 }
 
@@ -135,7 +135,7 @@ fn error_rows(data: &Data) -> Vec<Measured> {
         let against = peer.map_or(String::new(), |peer| format!(" against {}", said(peer)));
         let name = format!("{}, {}", dimension(dim), words(group));
         Some(Measured {
-            // Alone, one row stands for its dimension.
+            // Rows without a peer are grouped by dimension.
             group: if peer.is_some() { name.clone() } else { dim.clone() },
             label: words(group),
             name,
@@ -239,7 +239,7 @@ fn frame_rows(data: &Data) -> Vec<Measured> {
     distinct(&data.frame, |row| row.scene.clone()).iter().filter_map(of_scene).collect()
 }
 
-/// What is asked of pairs, of the narrow phase's sets and questions that are shown; all families of shapes.
+/// The narrow phase's sets and queries that are shown, for all families of shapes.
 const SHOWN: [&str; 11] = [
     "mixed/boolean",
     "mixed/separation",
@@ -253,11 +253,11 @@ const SHOWN: [&str; 11] = [
     "far/distance",
     "deep/separation",
 ];
-/// The same of shapes in the plane.
+/// The same for shapes in the plane.
 const SHOWN_IN_PLANE: [&str; 2] = ["mixed/boolean", "mixed/manifold"];
 
-/// Rows of a part of `compare`. Pairs of shapes are named by the shape first, or by both, anything on a mesh by what
-/// happens first, a question to boxes by its scene.
+/// Rows of a part of `compare`. The group is the first shape or both for pairs of shapes, the kind of measurement for
+/// meshes, and the scene for queries to boxes.
 fn kept_rows(data: &Data, part: &str) -> Vec<Measured> {
     let of_row = |row: &KeptRow| {
         let (first, rest) = row.row.split_once('/')?;

@@ -1,11 +1,11 @@
-//! Tables, for a page and for Markdown.
+//! Tables, for HTML and for Markdown.
 
-/// A table; the first column is text, the others figures.
+/// A table; the first column is text, the others are figures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// What it lists.
     pub name: String,
-    /// Heads of its columns.
+    /// The headings of its columns.
     pub head: Vec<String>,
     /// Its rows.
     pub rows: Vec<Vec<String>>,
@@ -58,7 +58,7 @@ impl Table {
     }
 }
 
-/// Text as HTML has it.
+/// Text escaped for HTML.
 pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

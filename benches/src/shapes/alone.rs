@@ -1,4 +1,4 @@
-//! What is asked of one shape.
+//! Queries of a single shape.
 
 use super::{Alone, Kind, PAIRS, points};
 use crate::clock::Effort;
@@ -14,7 +14,7 @@ use parry3d::query::Ray;
 use parry3d::shape::SharedShape;
 use std::error::Error;
 
-/// A shape in a pose, a point near it and a way towards it, and the same for parry3d.
+/// A shape in a pose, a point near it and a ray towards it, and the same for parry3d.
 struct One {
     shape: Shape3,
     pose: Pose3,
@@ -41,7 +41,7 @@ fn ones(kind: Kind) -> Result<Vec<One>, Box<dyn Error>> {
     (0..PAIRS).map(|_| one()).collect()
 }
 
-/// What both sides say to all, in turns.
+/// The answers of both sides for all of them, in turns.
 fn in_turns(effort: &Effort, mut row: Row, ours: impl FnMut() -> f32, peer: impl FnMut() -> f32) -> Row {
     let (race, said) = Race::run(effort, PAIRS, ours, peer, |found, found_by_peer| {
         format!("the answers sum up to {found}, the peer's to {found_by_peer}")

@@ -1,4 +1,4 @@
-//! Worlds that are played, in space and in the plane: all that a measurement of frames needs to know of either.
+//! Worlds that are played, in space and in the plane: what a measurement of frames needs of either.
 
 use super::MARGIN;
 use crate::lean::{LeanBody, Walked};
@@ -8,26 +8,26 @@ use asunder_geometry::{Pose2, Pose3};
 use asunder_scenes::worlds::{Body2, Body3, Replay2, Replay3};
 use parry3d::math::Pose;
 
-/// A scene whose bodies are where the number of a frame says.
+/// A scene whose poses are a function of the frame's number.
 pub(crate) trait Replay: Clone + Send + Sync {
-    /// Where a body is.
+    /// The pose of a body.
     type Pose: Sync;
-    /// Our world of it.
+    /// Our world for it.
     type Ours: Play<Self::Pose>;
 
-    /// Bodies in it.
+    /// The number of bodies.
     fn count(&self) -> usize;
 
-    /// Our world of its bodies.
+    /// Builds our world of its bodies.
     fn ours(&self) -> Result<Self::Ours, MarginError>;
 
-    /// Where the bodies that move are at a frame.
+    /// The poses of the moving bodies at a frame.
     fn poses_at(&mut self, frame: u32) -> Vec<(u32, Self::Pose)>;
 
-    /// The peer's bodies; nothing in the plane, or if it refuses a hull.
+    /// The peer's bodies; `None` in the plane, or if it rejects a hull.
     fn lean_bodies(&self) -> Option<Vec<LeanBody>>;
 
-    /// The same poses as the peer has them; none in the plane.
+    /// The same poses in the peer's types; none in the plane.
     fn converted(poses: &[(u32, Self::Pose)]) -> Vec<(u32, Pose)>;
 }
 
@@ -36,10 +36,10 @@ pub(crate) trait Play<P>: Clone + Send {
     /// One frame without any motion.
     fn update(&mut self);
 
-    /// Sets poses, updates, walks every contact point.
+    /// Sets poses, updates, and visits every contact point.
     fn frame(&mut self, poses: &[(u32, P)]) -> Walked;
 
-    /// What the last frame took and found.
+    /// The stats of the last frame.
     fn stats(&self) -> &Stats;
 }
 

@@ -10,7 +10,7 @@ use parry3d::math::Pose;
 use serde::{Deserialize, Serialize};
 use std::error::Error;
 
-/// One way through a frame, by the clock on the wall. What the stages leave of the whole is setting poses and walking
+/// One way to play a frame, in wall-clock time. The part of the whole that is in no stage is setting poses and visiting
 /// contacts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FrameRow {
@@ -18,17 +18,17 @@ pub struct FrameRow {
     pub scene: String,
     /// `asunder`, or `parry3d`: the [`lean`](crate::lean) pipeline.
     pub method: String,
-    /// Threads that worked.
+    /// How many threads worked.
     pub threads: u64,
-    /// Bodies in the scene.
+    /// How many bodies the scene has.
     pub bodies: u64,
-    /// Pairs that the broad phase hands over in a frame, on average, as are contacts and points.
+    /// Pairs that the broad phase reports per frame, on average; contacts and points are averages too.
     pub candidates: u64,
     /// Pairs with contact points, within the margin.
     pub contacts: u64,
     /// Contact points.
     pub points: u64,
-    /// Frames that were measured.
+    /// How many frames were measured.
     pub frames: u64,
     /// Median time of a frame, in nanoseconds.
     pub ns: f64,
@@ -36,27 +36,27 @@ pub struct FrameRow {
     pub ns_low: f64,
     /// Its upper quartile.
     pub ns_high: f64,
-    /// Median time from poses to boxes, in nanoseconds; the peer's trees.
+    /// Median time from poses to boxes, in nanoseconds; for the peer, updating the trees.
     pub refit_ns: f64,
     /// From boxes to pairs.
     pub sweep_ns: f64,
     /// From pairs to contacts.
     pub collide_ns: f64,
-    /// This frame's pairs beside the last one's.
+    /// Matching this frame's pairs with the last frame's.
     pub merge_ns: f64,
     /// Events, and the index by body; the peer has none.
     pub report_ns: f64,
-    /// Calls of the allocator in a steady frame; less than 0 where nobody counted.
+    /// Allocations in a steady frame; less than 0 if not counted.
     pub allocations: f64,
-    /// Bytes held a body, without its shape's own data; less than 0 where nobody counted.
+    /// Bytes held per body, without the data of its shape; less than 0 if not counted.
     pub bytes_per_body: f64,
-    /// Whether one thread and several found different contacts.
+    /// Notes that one thread and several found different contacts.
     pub note: String,
 }
 
 impl FrameRow {
-    /// The part of the candidates that have no contact point: boxes overlap, shapes do not touch; margins included,
-    /// here as there.
+    /// The share of candidates without a contact point: boxes overlap, but shapes do not touch. Margins are included on
+    /// both sides.
     ///
     /// ```
     /// use asunder_benches::world::rows::FrameRow;
@@ -69,11 +69,11 @@ impl FrameRow {
     }
 }
 
-/// Measures one scene: ours on one thread and on several; in space the peer's on one. Memory is counted where the
+/// Measures one scene: ours on one thread and on several, and in space the peer's on one. Memory is counted if the
 /// program's allocator is [`Counting`](asunder_tests::counting::Counting).
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start the threads.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, world::{Case, rows}};
@@ -150,14 +150,14 @@ fn row(
     })
 }
 
-/// Allocations a frame and bytes a body, if they are counted.
+/// Allocations per frame and bytes per body, if they are counted.
 type Held = Option<(f64, f64)>;
 
-/// Frames after which the scene begins anew: at once, so that a heap that falls is then up in the air again.
+/// Frames after which the scene starts again, without a transition: a heap that falls is then up in the air again.
 const CYCLE: u32 = 20;
 
-/// What our world and the peer's hold, and what a frame of theirs asks the allocator for once all buffers have grown:
-/// the third round of the same frames.
+/// The memory held by our world and by the peer's, and their allocations per frame once all buffers have grown, in the
+/// third round of the same frames.
 fn memory<R: Replay>(replay: &R) -> Result<[Held; 2], Box<dyn Error>> {
     let is_counted = counted(1, || {
         let before = allocations();
@@ -172,7 +172,7 @@ fn memory<R: Replay>(replay: &R) -> Result<[Held; 2], Box<dyn Error>> {
         let mut ours = replay.ours().map_err(|error| error.to_string())?;
         Ok(steady((replay, before), |poses, _| ours.frame(poses)))
     })?;
-    // Shapes are made beforehand: their data is not the pipeline's, here as there.
+    // Shapes are made beforehand, so that on both sides their data does not count for the pipeline.
     let peer = replay.lean_bodies().map(|bodies| {
         counted(1, || {
             let (replay, before) = (replay.clone(), live_bytes());
@@ -183,7 +183,7 @@ fn memory<R: Replay>(replay: &R) -> Result<[Held; 2], Box<dyn Error>> {
     Ok([Some(ours), peer])
 }
 
-/// Plays three rounds: allocations a frame of the last one, and bytes a body at its end.
+/// Plays three rounds; returns the allocations per frame of the last one, and the bytes per body at its end.
 fn steady<R: Replay>(
     (mut replay, before): (R, i64),
     mut frame: impl FnMut(&[(u32, R::Pose)], &[(u32, Pose)]) -> Walked,

@@ -1,4 +1,4 @@
-//! What a frame is made of.
+//! Times of a frame's stages.
 
 use crate::clock::Samples;
 use crate::row::{self, duration};
@@ -6,8 +6,8 @@ use asunder::Stats;
 use serde::Serialize;
 use std::time::Duration;
 
-/// Figures of whole frames. Stages are medians of wall-clock times; what is left of a frame is setting poses and
-/// walking contacts.
+/// Figures of whole frames. Stages are medians of wall-clock times; the rest of a frame is setting poses and visiting
+/// contacts.
 ///
 /// ```
 /// use asunder_benches::world::Figures;
@@ -22,25 +22,25 @@ pub struct Figures {
     pub sweep_ns: f64,
     /// Pairs to contacts.
     pub collide_ns: f64,
-    /// This update's contacts beside the last one's.
+    /// Matching this update's contacts with the last one's.
     pub merge_ns: f64,
     /// Events, and the index by body.
     pub report_ns: f64,
-    /// Candidate pairs a body.
+    /// Candidate pairs per body.
     pub pairs_per_body: f64,
-    /// Threads that the row's time was taken with, where it is wall-clock time.
+    /// Threads with which the row's time was taken, if it is wall-clock time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
     /// Wall-clock time on one thread, in nanoseconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub one_thread_ns: Option<f64>,
-    /// One thread's wall-clock time over that of the threads.
+    /// One thread's wall-clock time divided by that of all threads.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speedup: Option<f64>,
 }
 
 impl Figures {
-    /// Its columns of a table, under [`heading`].
+    /// The columns of a table, under [`heading`].
     pub fn to_text(&self) -> String {
         let speedup = self.threads.zip(self.speedup).map(|(threads, times)| {
             format!(" {times:.2}x on {threads} threads, one takes {}", duration(self.one_thread_ns))
@@ -51,7 +51,7 @@ impl Figures {
     }
 }
 
-/// The first line of a table of frames.
+/// The heading of a table of frames.
 ///
 /// ```
 /// assert!(asunder_benches::world::heading().contains("collide"));

@@ -1,21 +1,21 @@
-//! What frames found.
+//! Sums of what frames find.
 
 use crate::lean::{Lean, Walked};
 use asunder::Stats;
 
-/// Sums over frames: of a heap that falls in, no frame stands for the others.
+/// Sums over frames: no frame of a heap that falls is representative.
 #[derive(Default)]
 pub(super) struct Tally {
     frames: usize,
     found: Found,
 }
 
-/// What a frame finds.
+/// The counts of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Found {
-    /// Pairs that the broad phase hands over.
+    /// Pairs that the broad phase reports.
     pub(super) candidates: usize,
-    /// Pairs that share a point; the peer does not say.
+    /// Pairs that share a point; not known for the peer.
     pub(super) touching: usize,
     /// Pairs with contact points, within the margin.
     pub(super) contacts: usize,
@@ -24,12 +24,12 @@ pub(super) struct Found {
 }
 
 impl Tally {
-    /// One of our frames.
+    /// Adds one of our frames.
     pub(super) fn push(&mut self, stats: &Stats, walked: Walked) {
         self.push_counts(stats.candidates, stats.overlapping, walked);
     }
 
-    /// One of the peer's.
+    /// Adds one of the peer's frames.
     pub(super) fn push_peer(&mut self, peer: &Lean, walked: Walked) {
         self.push_counts(peer.candidates(), 0, walked);
     }
@@ -42,7 +42,7 @@ impl Tally {
         self.found.points += walked.points;
     }
 
-    /// A frame on average, in whole numbers.
+    /// The average frame, in whole numbers.
     pub(super) fn mean(&self) -> Found {
         let mean = |sum: usize| (sum + self.frames / 2) / self.frames.max(1);
         let Found { candidates, touching, contacts, points } = self.found;

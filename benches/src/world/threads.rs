@@ -1,6 +1,6 @@
-//! Whole frames on several threads beside one, and beside the peer on its one: by the clock on the wall.
+//! Whole frames on several threads, beside one thread and beside the peer on one, in wall-clock time.
 //!
-//! Each side plays a block of frames before it is another's turn: see [`blocks`](crate::blocks) for why.
+//! Each side plays a block of frames before it is the next one's turn; the reasons are in [`blocks`](crate::blocks).
 
 use super::play::{Play, Replay};
 use super::stages::Stages;
@@ -17,10 +17,10 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 
 /// Measures our frames on one thread and on several, and the peer's, in turns, block by block; in the plane there is no
-/// peer. The row's time is that of the threads.
+/// peer. The row's time is that on several threads.
 ///
 /// # Errors
-/// The system gives no threads.
+/// The system cannot start the threads.
 ///
 /// ```
 /// use asunder_benches::{clock::Effort, world::{Case, threads}};
@@ -56,12 +56,12 @@ pub fn measure(case: &Case, count: usize, threads: usize, effort: &Effort) -> Re
     Ok(row)
 }
 
-/// What one way to a frame took.
+/// The times and findings of one side.
 #[derive(Default)]
 pub(super) struct Side {
     pub(super) samples: Samples,
     pub(super) stages: Stages,
-    /// What its frames found.
+    /// The findings of its frames.
     pub(super) found: Tally,
 }
 
@@ -69,13 +69,13 @@ pub(super) struct Side {
 pub(super) struct Run {
     pub(super) bodies: usize,
     pub(super) ours: [Side; 2],
-    /// Nothing in the plane, or if it refuses a hull.
+    /// `None` in the plane, or if it rejects a hull.
     pub(super) peer: Option<Side>,
-    /// The first frame in which our two differ.
+    /// The first frame in which our two sides differ.
     pub(super) differ_in: Option<u32>,
 }
 
-/// Measures all three in turns: every side plays every frame.
+/// Measures all three sides in turns; every side plays every frame.
 pub(super) fn run<R: Replay>(mut replay: R, threads: usize, effort: &Effort) -> Result<Run, Box<dyn Error>> {
     let mut first = replay.ours()?;
     let mut peer = lean_of(&replay).map(|peer| (peer, Side::default()));
@@ -88,7 +88,7 @@ pub(super) fn run<R: Replay>(mut replay: R, threads: usize, effort: &Effort) -> 
     let (mut ours, mut differ_in) = ([Side::default(), Side::default()], None);
     for block in blocks(effort.rounds) {
         let mut found: [Vec<Walked>; 2] = [Vec::new(), Vec::new()];
-        // In turns as to which is first, too.
+        // Which side comes first also alternates.
         for who in [0, 1, 2].map(|turn| (block.number + turn) % 3) {
             if let Some(pool) = pools.get(who) {
                 spread(pool);
@@ -123,14 +123,14 @@ pub(super) fn run<R: Replay>(mut replay: R, threads: usize, effort: &Effort) -> 
 }
 
 impl Side {
-    /// One frame that counts.
+    /// Adds one counted frame.
     fn push(&mut self, ns: f64, found: Walked, stats: &Stats) {
         self.samples.push(ns, ns);
         self.stages.push(stats);
         self.found.push(stats, found);
     }
 
-    /// One frame of the peer's.
+    /// Plays one frame of the peer's, and adds it if it is counted.
     fn push_peer(&mut self, is_counted: bool, peer: &mut Lean, poses: &[(u32, Pose)]) {
         let start = Instant::now();
         let found = core::hint::black_box(peer_frame(peer, poses));
@@ -144,8 +144,7 @@ impl Side {
     }
 }
 
-/// Nanoseconds that a frame takes, and what it found. The clock runs within the pool: what it takes to enter one is not
-/// ours.
+/// The time of a frame in nanoseconds, and its result. The clock runs inside the pool: entering one is not our cost.
 fn timed(pool: &ThreadPool, frame: impl FnOnce() -> Walked + Send) -> (f64, Walked) {
     pool.install(|| {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Moving boxes: the scenes a broad phase is measured on.
+//! Moving boxes: scenes to measure a broad phase on.
 //!
 //! ```
 //! use asunder_scenes::boxes::{BoxScene, MovingBoxes};
@@ -15,10 +15,10 @@ use crate::random::Random;
 use asunder_geometry::Aabb3;
 use glam::DVec3;
 
-/// How far a box moves in a frame, as a part of its size.
+/// How far a box moves in a frame, as a share of its size.
 const STRIDE: f64 = 0.05;
 
-/// Boxes that move in a scene that is otherwise still.
+/// The number of boxes that move in an otherwise still scene.
 const STILL_MOVERS: usize = 100;
 
 /// The named scenes of moving boxes. Cost of making one: some tens of nanoseconds per box.
@@ -38,7 +38,7 @@ pub enum BoxScene {
     Sizes,
     /// A wall one box thick, four times as high as it is wide: all boxes overlap on one axis.
     Tower,
-    /// As gas, but each frame a tenth of the boxes jump anywhere, and the others rest.
+    /// As gas, but in each frame a tenth of the boxes jump to random places, and the others rest.
     Teleport,
     /// Eight clouds of gas in a world fifty times as wide as a cloud.
     Islands,
@@ -86,13 +86,13 @@ impl BoxScene {
         Self::ALL.into_iter().find(|scene| scene.name() == name)
     }
 
-    /// Overlaps a box that the scene is laid out for.
+    /// The overlaps per box that the scene is laid out for.
     const fn pairs_per_box(self) -> f64 {
         if matches!(self, Self::Pile) { 4.0 } else { 0.5 }
     }
 }
 
-/// One scene of moving boxes, at one frame. Made and stepped in time linear in the boxes.
+/// One scene of moving boxes, at one frame. Made and stepped in time linear in the number of boxes.
 #[derive(Clone, Debug)]
 pub struct MovingBoxes {
     /// The boxes of this frame, in metres.
@@ -104,7 +104,7 @@ pub struct MovingBoxes {
     random: Random,
 }
 
-/// A box by its centre, which bounces about in a room.
+/// A box by its centre, which bounces inside a room.
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     center: DVec3,
@@ -113,7 +113,7 @@ struct Particle {
     room: u32,
 }
 
-/// Where centres may be.
+/// The region for centres of boxes.
 #[derive(Clone, Copy, Debug)]
 struct Room {
     low: DVec3,
@@ -135,7 +135,7 @@ impl MovingBoxes {
         Self { boxes, scene, particles, movers, rooms, random }
     }
 
-    /// Moves the boxes on by one frame.
+    /// Advances the boxes by one frame.
     pub fn step(&mut self) {
         if self.scene == BoxScene::Teleport {
             let count = self.particles.len();
@@ -213,7 +213,7 @@ fn movers(scene: BoxScene, count: usize, random: &mut Random) -> Vec<u32> {
     (first..count as u32).filter(|_| share == 1.0 || random.unit() < share).collect()
 }
 
-/// Rooms of such a size that the scene has the overlaps it was asked for.
+/// Rooms of a size that gives the scene its number of overlaps.
 ///
 /// Two sides add up to 2 m on average, so two centres drawn from an interval of length d are near enough with
 /// probability q = 2/d - 1/d^2, and n boxes have n/2 (n q_x q_y q_z) overlaps.

@@ -1,5 +1,5 @@
-//! Boxes that are laid out to make a broad phase slow: few of them overlap, and a grid, a tree or a sweep along one
-//! axis has a hard time to see it.
+//! Boxes laid out to make a broad phase slow: few of them overlap, but a grid, a tree or a sweep along one axis can
+//! hardly make use of that.
 //!
 //! ```
 //! use asunder_scenes::hurt::HurtScene;
@@ -16,21 +16,21 @@ use glam::{DVec3, Vec3};
 /// The named scenes. Cost of making one: some tens of nanoseconds per box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum HurtScene {
-    /// Needles through all of a cube, a third along each axis, with one overlap for ten.
+    /// Needles through the whole of a cube, a third of them along each axis, with one overlap for every ten.
     Needles,
-    /// As needles, but of any length from a hundredth of the cube on.
+    /// As needles, but of any length from a hundredth of the cube's edge up.
     Splinters,
-    /// Forty clouds about one spot, each half as wide as the one before, its boxes too.
+    /// Forty clouds about one point, each half as wide as the one before, and so are its boxes.
     Halves,
-    /// As halves, a quarter as wide.
+    /// As halves, but each cloud is a quarter as wide as the one before.
     Quarters,
-    /// As halves, a thousandth as wide, and six of them.
+    /// As halves, but six clouds, each a thousandth as wide as the one before.
     Thousandths,
-    /// Cubes as near the middle as far away: the logarithm of every coordinate is spread evenly over twelve decades.
+    /// Cubes at all distances from the middle: every coordinate is log-uniform over twelve decades.
     Scattered,
-    /// Lines without end along each axis, and as many crumbs, in a cube.
+    /// Unbounded lines along each axis, and as many tiny boxes, in a cube.
     Unbounded,
-    /// Floors of all widths above each other, each of which meets about sixty others.
+    /// Floors of all widths one above another, each of which overlaps about sixty others.
     Floors,
 }
 
@@ -66,7 +66,7 @@ impl HurtScene {
         Self::ALL.into_iter().find(|scene| scene.name() == name)
     }
 
-    /// Its boxes, in metres. What overlaps a box on average does not depend on how many there are.
+    /// Its boxes, in metres. The average number of overlaps per box does not depend on the number of boxes.
     pub fn boxes(self, count: usize, seed: u64) -> Vec<Aabb3> {
         let mut random = Random::new(seed ^ 0x4157);
         (0..count).map(|place| self.one(place, count as f64, &mut random)).collect()
@@ -84,11 +84,11 @@ impl HurtScene {
             Self::Thousandths => shrinking(place, (6, 1e-3), count, random),
             Self::Scattered => {
                 let center = DVec3::from_array([0; 3].map(|_| random.log_range(1e-6, 1e6) * sign(random)));
-                // Of any size, but far smaller than its way from the middle.
+                // Of any size, but far smaller than the distance from the middle.
                 around(center, DVec3::splat(random.log_range(1e-8, 1e-6)))
             }
             Self::Unbounded => {
-                // What has ends is of no size and in no column's way: a grid that looks at it alone is too fine.
+                // The bounded boxes have hardly any size: a grid that is fitted to them alone is too fine.
                 let is_line = place.is_multiple_of(2);
                 let mut one = needle(place / 2, if is_line { 0.0 } else { 0.1 / count }, count, random);
                 if is_line {
@@ -106,15 +106,15 @@ impl HurtScene {
     }
 }
 
-/// A needle of a cube of 1 m. Two of different axes meet with the chance of twice their width.
+/// A needle in a cube of 1 m. Two of different axes overlap with a probability of twice their width.
 fn needle(place: usize, length: f64, count: f64, random: &mut Random) -> Aabb3 {
     let mut half = DVec3::splat(0.1 / count);
     half[place % 3] = 0.5 * length;
     around(random.within(DVec3::splat(-0.5), DVec3::splat(0.5)), half)
 }
 
-/// A cube of one of so many clouds, each that much narrower than the last. Of two of a cloud, one in a million a
-/// billionth of the cloud overlaps.
+/// A cube of one of so many clouds, each narrower than the last by the given ratio. Of two of a cloud, one in a million
+/// a billionth of the cloud overlaps.
 fn shrinking(place: usize, (clouds, ratio): (usize, f64), count: f64, random: &mut Random) -> Aabb3 {
     let scale = (0..place % clouds).fold(1.0, |scale, _| scale * ratio);
     let half = 0.5 * libm::cbrt(clouds as f64 / count);

@@ -28,8 +28,8 @@
 //!
 //! # The format
 //!
-//! Units are SI, axes right-handed, and a vector has as many numbers as the scene has dimensions. Every field that
-//! is not named here is refused, and so is one that is named twice.
+//! Units are SI, axes right-handed, and a vector has as many numbers as the scene has dimensions. A field that is not
+//! named here is rejected, and so is one that occurs twice.
 //!
 //! | field of the file | value |
 //! |---|---|
@@ -56,8 +56,8 @@
 //!
 //! | field of a body | value | where it is left out |
 //! |---|---|---|
-//! | `shape` | name of a shape | refused |
-//! | `position` | vector, m | refused |
+//! | `shape` | name of a shape | an error |
+//! | `position` | vector, m | an error |
 //! | `rotation` | 2D: angle in radians, counter-clockwise; 3D: quaternion x, y, z, w of any length but zero | none |
 //! | `linear_velocity` | vector, m/s, at most [`MAX_RATE`] long | zero |
 //! | `angular_velocity` | 2D: number; 3D: vector; rad/s, at most [`MAX_RATE`] | zero |
@@ -77,9 +77,9 @@ pub use error::{Fault, LevelError};
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use glam::{DVec2, DVec3};
 
-/// The greatest length of a gravity or velocity that a scene file may ask for, in SI units.
+/// The greatest length of a gravity or velocity in a scene file, in SI units.
 ///
-/// At 1000 m/s a body crosses sixteen metres in a sixtieth of a second: more is a slip of the pen.
+/// At 1000 m/s a body crosses sixteen metres in a sixtieth of a second: more is taken for a mistake.
 pub const MAX_RATE: f64 = 1000.0;
 
 /// A level of either dimension.
@@ -103,10 +103,10 @@ pub type LevelBody2 = LevelBody<Shape2, Pose2, DVec2, f64>;
 /// A body of a level in space; its angular velocity is about the world's axes.
 pub type LevelBody3 = LevelBody<Shape3, Pose3, DVec3, DVec3>;
 
-/// A level: [`Level2`] and [`Level3`] are what it comes as.
+/// A level of either dimension, used as [`Level2`] and [`Level3`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelOf<Vector, Body> {
-    /// What the file calls itself; empty where it does not.
+    /// The name in the file; empty where there is none.
     pub name: String,
     /// In m/s².
     pub gravity: Vector,
@@ -114,7 +114,7 @@ pub struct LevelOf<Vector, Body> {
     pub bodies: Vec<Body>,
 }
 
-/// A body of a level: [`LevelBody2`] and [`LevelBody3`] are what it comes as.
+/// A body of a level, used as [`LevelBody2`] and [`LevelBody3`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelBody<Shape, Pose, Vector, Spin> {
     /// Bodies that name the same shape share its data.
@@ -129,9 +129,9 @@ pub struct LevelBody<Shape, Pose, Vector, Spin> {
     pub fixed: bool,
     /// Reports touching and pushes nothing.
     pub sensor: bool,
-    /// Where the file says nothing, `None`.
+    /// `None` where the file does not give them.
     pub layers: Option<LevelLayers>,
-    /// The game's own number.
+    /// A number for the game's own use.
     pub user_data: u64,
 }
 
@@ -145,11 +145,11 @@ pub struct LevelLayers {
 }
 
 impl Level {
-    /// Reads a scene file. The format stands at the head of [this module](self).
+    /// Reads a scene file. The format is described at the head of [this module](self).
     ///
     /// # Errors
-    /// What is no JSON, a field that is unknown, missing or of the wrong type, each with its line and column; and
-    /// content that makes no sense, with its path in the file. The first fault is the one reported.
+    /// Text that is not JSON, or a field that is unknown, missing or of the wrong type, with its line and column; or
+    /// content that makes no sense, with its path in the file. Only the first fault is reported.
     pub fn from_json(json: impl AsRef<[u8]>) -> Result<Self, LevelError> {
         let file: raw::File = serde_json::from_slice(json.as_ref()).map_err(LevelError::Json)?;
         match file.dimension {

@@ -1,4 +1,4 @@
-//! The one source of chance of every scene.
+//! The only source of randomness of all scenes.
 
 use crate::turn::Turn;
 use glam::{DVec3, Quat};
@@ -41,7 +41,7 @@ impl Random {
         libm::exp(self.range(libm::log(low), libm::log(high)))
     }
 
-    /// Uniform among `0..count`; 0 when there is nothing to choose from.
+    /// Uniform among `0..count`; 0 if `count` is 0.
     pub fn below(&mut self, count: usize) -> usize {
         ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
     }
@@ -51,7 +51,7 @@ impl Random {
         DVec3::new(self.range(low.x, high.x), self.range(low.y, high.y), self.range(low.z, high.z))
     }
 
-    /// Uniform on the unit sphere, by rejection: no trigonometry.
+    /// Uniform on the unit sphere, by rejection, without trigonometry.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let v = self.within(DVec3::NEG_ONE, DVec3::ONE);
@@ -62,7 +62,7 @@ impl Random {
         }
     }
 
-    /// A rotation, every one as likely as any other.
+    /// A uniformly random rotation.
     pub fn rotation(&mut self) -> Quat {
         self.turn().to_quat()
     }

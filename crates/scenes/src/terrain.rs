@@ -4,7 +4,7 @@ use crate::random::Random;
 use core::f64::consts::TAU;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Hills over a square, one height a place: a sum of waves, each as high as it is long, times a slope.
+/// Hills over a square, as a height for each place: a sum of waves, each of a height proportional to its length.
 ///
 /// ```
 /// use asunder_scenes::terrain::Terrain;
@@ -29,11 +29,11 @@ struct Wave {
     height: f64,
 }
 
-/// How steep each wave is at most.
+/// The greatest slope of each wave.
 const SLOPE: f64 = 0.1;
 
 impl Terrain {
-    /// Hills of about so many triangles, in square cells so many metres wide, two triangles each.
+    /// Hills of about so many triangles, in square cells `cell` metres wide, two triangles each.
     pub fn new(triangles: usize, cell: f64, seed: u64) -> Self {
         let mut random = Random::new(seed);
         let wave = |length: f64| {
@@ -45,7 +45,7 @@ impl Terrain {
         Self { cells: ((triangles as f64 / 2.0).sqrt().round() as usize).max(1), cell, waves }
     }
 
-    /// A plane of about so many triangles, cut as the hills are, at height 0.
+    /// A plane of about so many triangles, divided as the hills are, at height 0.
     ///
     /// ```
     /// use asunder_scenes::terrain::Terrain;
@@ -56,7 +56,7 @@ impl Terrain {
         Self { waves: Vec::new(), ..Self::new(triangles, cell, 0) }
     }
 
-    /// How many cells each side has.
+    /// The number of cells along each side.
     pub const fn cells(&self) -> usize {
         self.cells
     }
@@ -71,7 +71,7 @@ impl Terrain {
         self.waves.iter().map(|wave| wave.height * libm::sin(wave.along.dot(place) + wave.phase)).sum()
     }
 
-    /// Vertices row by row, from the origin on along x, then z.
+    /// The vertices row by row: from the origin along x, then along z.
     pub fn vertices(&self) -> Vec<Vec3> {
         (0..=self.cells)
             .flat_map(|row| (0..=self.cells).map(move |column| self.vertex(column, row)))
@@ -83,7 +83,7 @@ impl Terrain {
         DVec3::new(place.x, self.height(place), place.y).as_vec3()
     }
 
-    /// Triangles by their vertices' numbers, counter-clockwise from above, two a cell.
+    /// The triangles by their vertices' indices, counter-clockwise from above, two a cell.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let row = self.cells as u32 + 1;
         let of_cell = |column: u32, from: u32| {
@@ -93,7 +93,7 @@ impl Terrain {
         (0..row - 1).flat_map(|from| (0..row - 1).flat_map(move |column| of_cell(column, from))).collect()
     }
 
-    /// The height of the triangle over a place, and its normal. Beyond the rim, that of the nearest cell goes on.
+    /// The height and normal of the triangle over or under a place. Beyond the rim, the nearest cell is extended.
     pub fn under(&self, place: impl Into<DVec2>) -> (f64, DVec3) {
         let place = place.into();
         let cell = |along: f64| (along / self.cell).clamp(0.0, self.cells as f64 - 1.0) as usize;

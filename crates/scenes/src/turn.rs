@@ -1,5 +1,5 @@
-//! Rotations in plain f64 scalars. glam's quaternion products sum in an order that depends on the processor, and a
-//! scene must not.
+//! Rotations in plain f64 scalars. glam's quaternion products sum in an order that depends on the processor, which a
+//! scene must not do.
 
 use glam::{DVec3, Quat};
 
@@ -22,7 +22,7 @@ impl Turn {
     pub(crate) fn between(from: DVec3, to: DVec3) -> Self {
         let w = 1.0 + from.dot(to);
         if w < 1e-9 {
-            // Opposite vectors: half a turn about anything across them.
+            // Opposite vectors: half a turn about any perpendicular axis.
             let across = if from.x.abs() < 0.7 { DVec3::X } else { DVec3::Y };
             return Self { v: unit(from.cross(across)), w: 0.0 };
         }

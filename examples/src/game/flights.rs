@@ -1,27 +1,28 @@
-//! Bullets: bodies so fast that they would be beyond a wall before anybody asked whether they touch it.
+//! Bullets: bodies so fast that they would be past a wall before any update sees them touch it.
 //!
-//! Before an update the world is told where a fast body is about to be (`set_motion`). Of a bullet it answers with
-//! what is hit, and when. In the step that follows the bullet goes no further than that; it arrives with all its speed
-//! and within everybody's margin, so the next update has an ordinary contact, which stops or bounces it. What is left
+//! Before an update the game tells the world where a fast body is about to be (`set_motion`). For a bullet, the world
+//! answers with what it will hit, and when. In the next step the bullet goes no further than that. It arrives at full
+//! speed and within both margins, so the following update has an ordinary contact, which stops or bounces it. The rest
 //! of the step in which it arrives is lost, as in Box2D's continuous collision (Catto, "Continuous Collision", Game
 //! Developers Conference 2013).
 
 use crate::stepper::Body;
 use asunder::glam::DVec3;
 
-/// A bullet that is turned aside flies blind for the rest of a step: so far at most, as a share of its reach.
+/// The most that a bullet may move in a step once the solver has deflected it from the predicted path, for which alone
+/// impacts are known; as a share of its reach.
 const BLIND: f64 = 0.25;
 
-/// What a bullet is expected to do in the next step.
+/// The predicted motion of a bullet in the next step.
 pub(super) struct Flight {
     pub(super) number: usize,
     moved: DVec3,
     turned: DVec3,
-    /// How much of it may be done.
+    /// The share of the motion that it may make.
     share: f64,
-    /// How far what is hit goes on by itself in the rest of the step: the bullet goes along.
+    /// How far the body that it hits moves in the rest of the step: the bullet is carried along.
     carried: DVec3,
-    /// Whether a contact that is there already bends it.
+    /// Whether it already has a contact, which will deflect it.
     is_held: bool,
 }
 
@@ -34,13 +35,13 @@ impl Flights {
         self.0.clear();
     }
 
-    /// A bullet sets off; bullets are told of by their numbers, ascending.
+    /// Adds a bullet; they must be added by ascending number.
     pub(super) fn push(&mut self, number: usize, moved: DVec3, turned: DVec3) {
         let (share, carried, is_held) = (1.0, DVec3::ZERO, false);
         self.0.push(Flight { number, moved, turned, share, carried, is_held });
     }
 
-    /// A bullet hits something after a share of its flight, which itself moves so far in a step.
+    /// Notes a hit: after which share of the bullet's motion, and how far the body that is hit moves in a whole step.
     pub(super) fn note(&mut self, number: usize, (share, along): (f64, DVec3), is_contact: bool) {
         if let Ok(index) = self.0.binary_search_by_key(&number, |flight| flight.number) {
             let flight = &mut self.0[index];
@@ -58,7 +59,7 @@ impl Flights {
 }
 
 impl Flight {
-    /// How much of what the solver says a bullet does.
+    /// The part of the solver's motion that the bullet may make.
     pub(super) fn limited(&self, body: &Body) -> (DVec3, DVec3) {
         let (moved, turned) = (body.moved, body.turned);
         let aside = moved - self.moved;

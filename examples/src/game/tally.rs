@@ -1,4 +1,4 @@
-//! What can be asked of a game.
+//! Queries of a game.
 
 use super::{Game, Places, spin_between};
 use crate::playable::{InSpace, Playable};
@@ -23,12 +23,12 @@ impl<S: Playable> Game<S> {
         self.steps
     }
 
-    /// How many bodies are awake, and how many are asleep, of those that pushes can move.
+    /// How many of the bodies that pushes can move are awake, and how many asleep.
     pub fn awake_and_asleep(&self) -> (usize, usize) {
         (self.stepper.awake().len(), self.stepper.asleep().len())
     }
 
-    /// The key of a body in the world; nothing for one that has left, or never came.
+    /// The key of a body in the world; `None` for one that has left, or was never added.
     pub fn key(&self, number: usize) -> Option<S::Key> {
         let body = self.stepper.bodies().get(number)?;
         (body.state != State::Removed).then(|| body.key.into())
@@ -39,7 +39,7 @@ impl<S: Playable> Game<S> {
         self.stepper.bodies().get(number).map(|body| body.center)
     }
 
-    /// Gives a body another speed, in m/s, and wakes it. No effect on what pushes cannot move.
+    /// Gives a body another velocity, in m/s, and wakes it. Does nothing to a body that pushes cannot move.
     pub fn set_velocity(&mut self, number: usize, velocity: DVec3) {
         self.stepper.wake(&[number]);
         if self.stepper.bodies().get(number).is_some_and(|body| body.state == State::Awake) {
@@ -53,12 +53,12 @@ impl<S: Playable> Game<S> {
     }
 
     /// The deepest overlap of any contact point of the last update, as a share of the smaller body's size: the edge of
-    /// the cube, or of the square, of its mass.
+    /// the cube, or square, of the same mass.
     pub fn deepest_share(&self) -> f64 {
         self.all_points().map(|point| self.share_of(&point)).fold(0.0, f64::max)
     }
 
-    /// Those of bodies that sleep as well.
+    /// The points of all contacts, also of sleeping bodies.
     fn all_points(&self) -> impl Iterator<Item = Point> {
         self.stepper.world.contacts().flat_map(|contact| {
             let numbers = [contact.a, contact.b].map(|key| self.stepper.number(key));
@@ -77,11 +77,12 @@ impl<S: Playable> Game<S> {
         bodies.map(|body| body.velocity.length()).fold(0.0, f64::max)
     }
 
-    /// The kinetic energy of all that pushes can move, in joules.
+    /// The kinetic energy of all bodies that are awake, in joules.
     pub fn energy(&self) -> f64 {
         let energy = |&number: &usize| {
             let body = &self.stepper.bodies()[number];
-            // In the body's axes, where the inertia is. Of the plane only the last number is any.
+            // In the body's axes, as the inertia is. In the plane the matrix is singular: all but its last entry is
+            // zero.
             let (spin, inverse) = (body.turn.conjugate() * body.spin, body.mass.inverse_inertia);
             let momentum = match inverse.determinant() > 0.0 {
                 true => inverse.inverse() * spin,
@@ -89,7 +90,7 @@ impl<S: Playable> Game<S> {
             };
             0.5 * (body.velocity.dot(body.velocity) / body.mass.inverse + spin.dot(momentum))
         };
-        // Not `sum`: of nothing that is -0.
+        // Not `sum`, which is -0 for no items.
         self.stepper.awake().iter().map(energy).fold(0.0, |sum, one| sum + one)
     }
 
@@ -109,9 +110,9 @@ impl<S: Playable> Game<S> {
         Places(self.stepper.bodies().iter().map(|body| (body.center, body.turn)).collect())
     }
 
-    /// How far the body has moved that moved furthest since then, as a share of its size: its centre, and its
-    /// furthest point by turning. The size is the edge of the cube, or of the square, of its mass. Bodies that have
-    /// left are infinitely far.
+    /// How far the body that has moved furthest since then has moved, as a share of its size: the motion of its centre
+    /// and, by rotation, of its furthest point. The size is the edge of the cube, or square, of the same mass. A body
+    /// that has left counts as infinitely far.
     pub fn strayed(&self, since: &Places) -> f64 {
         let mut most: f64 = 0.0;
         for ((body, actor), (center, turn)) in self.stepper.bodies().iter().zip(&self.actors).zip(&since.0) {
@@ -127,7 +128,7 @@ impl<S: Playable> Game<S> {
         most
     }
 
-    /// A number that differs wherever the poses of two runs do (FNV-1a over their bits).
+    /// A hash of all poses, to compare two runs (FNV-1a over their bits).
     pub fn digest(&self) -> u64 {
         let mut digest = 0xcbf2_9ce4_8422_2325_u64;
         for body in self.stepper.bodies().iter().filter_map(|body| self.stepper.world.get(body.key.into())) {

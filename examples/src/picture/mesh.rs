@@ -1,13 +1,13 @@
 //! Shapes as flat faces, for drawing.
 //!
-//! A round shape is drawn as the hull of points on its surface, found by its support mapping. A shape without an end
-//! is drawn as far as a level goes.
+//! A round shape is drawn as the hull of points on its surface, found by its support mapping. An unbounded shape is cut
+//! off at the size of a level.
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{Collider2, Collider3, Ground, Hull, Part3, Polygon, Pose2, Pose3, Shape2, Shape3};
 use core::f64::consts::{PI, TAU};
 
-/// Half the side of a half-space's square, and of a half-plane's, in metres.
+/// Half the side of the square that stands for a half-space or half-plane, in metres.
 const FAR: f64 = 30.0;
 /// Steps of a full turn on a round surface.
 const TURN: usize = 16;
@@ -20,7 +20,7 @@ pub struct Face {
     pub corners: Vec<DVec3>,
 }
 
-/// The convex parts of a body, each as a body of its own. Of ground, its triangles.
+/// The convex parts of a body, each as a body of its own; of ground, its triangles.
 ///
 /// ```
 /// use asunder::{Collider3, Sphere};
@@ -74,14 +74,14 @@ pub fn faces(body: &Collider3) -> Vec<Face> {
     }
 }
 
-/// Points on a rounded shape's surface: the corners of its flat sides, and its support in many directions.
+/// Points on a rounded shape's surface: the corners of its flat faces, and support points in many directions.
 fn surface(shape: &Shape3) -> Vec<Vec3> {
     let core = shape.core();
     let radius = f64::from(shape.radius());
     let corners = core.normals().iter().enumerate().flat_map(|(face, normal)| {
         core.topology().face_vertices(face).map(|i| core.vertices()[i].as_dvec3() + *normal * radius)
     });
-    // Round edges are narrow beside the flat sides: fewer steps will do.
+    // Round edges are narrow beside the flat faces: fewer steps will do.
     let turn = if core.normals().is_empty() { TURN } else { TURN / 2 };
     let rings = (1..turn / 2).flat_map(|ring| {
         let (sin, cos) = libm::sincos(PI * ring as f64 / (turn / 2) as f64);
@@ -111,7 +111,7 @@ pub fn outlines(body: &Collider2) -> Vec<Vec<DVec2>> {
     compound.parts().iter().map(|part| part_of((part.pose(), part.shape()))).collect()
 }
 
-/// A convex shape's outline in its own axes.
+/// A convex shape's outline, in its own axes.
 fn outline(shape: &Shape2) -> Vec<DVec2> {
     let local: Vec<Vec2> = match shape {
         Shape2::HalfPlane(half_plane) => {
@@ -134,7 +134,7 @@ fn outline(shape: &Shape2) -> Vec<DVec2> {
     local.into_iter().map(Vec2::as_dvec2).collect()
 }
 
-/// Directions all around.
+/// Directions all around the circle.
 fn circle(turn: usize) -> impl Iterator<Item = DVec2> + Clone {
     (0..turn).map(move |i| {
         let (sin, cos) = libm::sincos(TAU * i as f64 / turn as f64);

@@ -1,16 +1,16 @@
-//! Which bodies hide which: the engine answers that as well.
+//! Which bodies hide which: the engine can answer that as well.
 //!
-//! Two bodies can hide one another only if their outlines overlap on the screen: contacts of a [`World2`] of outlines.
-//! Where they do, an axis that separates the bodies in space says which one is nearer. The drawing order is any
-//! order that respects every such answer (Newell, Newell and Sancha, "A solution to the hidden surface problem",
-//! 1972, with whole convex bodies for faces).
+//! Two bodies can hide one another only if their outlines overlap on the screen: those are the contacts of a [`World2`]
+//! of outlines. For such a pair, an axis that separates the bodies in space says which one is nearer. Any order that
+//! respects every such answer is a valid drawing order (Newell, Newell and Sancha, "A solution to the hidden surface
+//! problem", 1972, with whole convex bodies for faces).
 
 use asunder::glam::{DVec2, DVec3};
 use asunder::{Collider2, Collider3, Pair3, Polygon, Separation3, World2};
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Numbers of the bodies, those furthest from the viewer first.
+/// The numbers of the bodies, those furthest from the viewer first.
 pub(super) fn far_to_near(
     bodies: &[&Collider3],
     outlines: &[Vec<DVec2>],
@@ -38,7 +38,7 @@ pub(super) fn far_to_near(
     sorted(&by_depth, &rank, &nearer, hides)
 }
 
-/// Draws what hides nothing that is still to be drawn; of several, the furthest.
+/// A topological sort: next comes a body that hides nothing still to be drawn; of several, the furthest.
 fn sorted(by_depth: &[usize], rank: &[usize], nearer: &[Vec<usize>], mut hides: Vec<usize>) -> Vec<usize> {
     let mut is_drawn = vec![false; by_depth.len()];
     let mut order = Vec::with_capacity(by_depth.len());
@@ -49,7 +49,7 @@ fn sorted(by_depth: &[usize], rank: &[usize], nearer: &[Vec<usize>], mut hides: 
         let body = match ready.pop() {
             Some(Reverse(rank)) => by_depth[rank],
             None => {
-                // A circle of bodies, each in front of the next: no order is right, so the furthest goes first.
+                // A cycle of bodies, each in front of the next: no order is right, so the furthest goes first.
                 next_stuck += 1;
                 by_depth[next_stuck - 1]
             }
@@ -68,7 +68,7 @@ fn sorted(by_depth: &[usize], rank: &[usize], nearer: &[Vec<usize>], mut hides: 
     order
 }
 
-/// Pairs whose outlines share a point on the screen.
+/// Pairs of bodies whose outlines overlap on the screen.
 fn overlapping(outlines: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
     let mut world = World2::new();
     for (number, outline) in outlines.iter().enumerate() {
@@ -82,7 +82,7 @@ fn overlapping(outlines: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
     world.contacts().filter_map(|contact| Some((number(contact.a)?, number(contact.b)?))).collect()
 }
 
-/// Whether the first of two bodies is nearer; nothing where neither can hide the other.
+/// Whether the first of two bodies is nearer; `None` where neither can hide the other.
 fn is_nearer(a: &Collider3, b: &Collider3, toward_viewer: DVec3) -> Option<bool> {
     let pair = Pair3::new(a.shape(), a.pose(), b.shape(), b.pose());
     let Separation3::Measured(measured) = pair.separation(f32::MAX) else { return None };

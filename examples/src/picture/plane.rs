@@ -9,18 +9,18 @@ const EARTH: Color = DVec3::new(0.43, 0.34, 0.27);
 const GRASS: Color = DVec3::new(0.40, 0.62, 0.27);
 const WATER: Color = DVec3::new(0.25, 0.55, 0.85);
 
-/// A scene that is so many times wider than high is not shown whole.
+/// Of a scene that is more than this many times wider than high only the middle is shown.
 const WIDEST: f64 = 6.0;
 
 /// Draws the world as of its last update.
 pub fn draw(world: &World2) -> String {
     let bodies: Vec<(&Collider2, Vec<Vec<DVec2>>)> =
         world.iter().map(|(_, body)| (body, outlines(body))).collect();
-    // What has no end is drawn as far as the rest goes.
+    // Unbounded shapes are cut off where the rest of the scene ends.
     let bounded = bodies.iter().filter(|(body, _)| body.shape().outer_radius().is_finite());
     let canvas = Canvas::around(bounded.flat_map(|(_, outlines)| outlines.iter().flatten().copied()));
     let mut canvas = canvas.at_most_wide(WIDEST).fine_for(size(world));
-    // Scenery last but for the solid bodies: what stands on the ground hides the grass, and water hides nothing.
+    // Scenery first, then sensors, then what moves: bodies hide the grass they stand on, and water hides no body.
     let layers: [fn(&Collider2) -> bool; 3] = [
         |body| body.is_fixed() && !body.is_sensor(),
         |body| body.is_sensor(),
@@ -36,7 +36,7 @@ pub fn draw(world: &World2) -> String {
     canvas.finish(DVec3::new(0.62, 0.80, 0.93), DVec3::new(0.95, 0.96, 0.92))
 }
 
-/// The middle one of the sizes of bodies that move, in metres.
+/// The median size of the bodies that move, in metres.
 fn size(world: &World2) -> f64 {
     let moving = world.iter().filter(|(_, body)| !body.is_fixed());
     let mut sizes: Vec<f32> = moving.map(|(_, body)| body.shape().outer_radius()).collect();
@@ -74,7 +74,7 @@ fn draw_ground(canvas: &mut Canvas, points: &[DVec2]) {
     for (i, &from) in points.iter().enumerate() {
         let to = points[(i + 1) % points.len()];
         let along = (to - from).normalize_or_zero();
-        // Counter-clockwise, so an edge that runs leftwards faces up; grass keeps off what is too steep.
+        // Outlines are counter-clockwise, so an edge that runs leftwards faces up. Steep edges get no grass.
         if -along.x > 0.6 {
             canvas.line(from, to, Pen::line(GRASS, 4.0));
         }
@@ -88,7 +88,7 @@ fn draw_crate(canvas: &mut Canvas, points: &[DVec2], color: Color) {
     let inner: Vec<DVec2> = points
         .iter()
         .map(|&corner| {
-            // As far from every side, however long the crate is.
+            // A frame of equal width on all sides, however long the crate is.
             let (x, y) = (points[1] - points[0], points[3] - points[0]);
             let toward = center - corner;
             let frame = 0.16 * reach;

@@ -1,4 +1,4 @@
-//! A picture of a world in space: an orthographic view from above, nearer bodies over further ones.
+//! A picture of a world in space: orthographic, from above, nearer bodies drawn over further ones.
 
 use super::mesh::{Face, faces, parts};
 use super::order::far_to_near;
@@ -7,17 +7,17 @@ use asunder::glam::{DVec2, DVec3, Vec3};
 use asunder::{BodyKey3, Collider3, Shape3, World3};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A landscape of more fixed pieces than this is not drawn whole.
+/// A landscape with more fixed bodies than this is not drawn whole.
 const PIECES: usize = 12_000;
-/// So many bodies of it are, about one that moves.
+/// How many bodies of such a landscape are drawn, around one that moves.
 const AROUND: usize = 2_000;
 /// Metres between the lines that are drawn on large faces of the scenery.
 const TILE: f64 = 1.0;
-/// Scenery that hides more than this share of the bodies that move is drawn as a shadow: the walls of a pit.
+/// Scenery that hides more than this share of the moving bodies, such as the walls of a pit, is drawn as a shadow.
 const HIDES: f64 = 0.04;
-/// How many pairs of a piece of scenery and a body are looked at for that.
+/// The most pairs of scenery and moving body that are examined for that.
 const LOOKS: usize = 20_000_000;
-/// A contact point is shown if no more than this much of its own two bodies, in metres, lies in front of it.
+/// A contact point is shown if at most this much of its own two bodies, in metres, lies in front of it.
 const SEEN_THROUGH: f64 = 0.01;
 
 struct View {
@@ -27,10 +27,10 @@ struct View {
     light: DVec3,
 }
 
-/// A convex part of a body, as it stands.
+/// A convex part of a body, in the world.
 struct Solid {
     part: Collider3,
-    /// Which body of the world it is of.
+    /// The number of the body it is part of.
     body: usize,
     faces: Vec<Face>,
 }
@@ -48,11 +48,11 @@ pub fn draw(world: &World3) -> String {
     let outlines: Vec<Vec<DVec2>> = solids.iter().map(|solid| view.outline(solid)).collect();
     let convex: Vec<&Collider3> = solids.iter().map(|solid| &solid.part).collect();
     let order = far_to_near(&convex, &outlines, view.toward_viewer);
-    // When the last part of each body is drawn.
+    // The place in the drawing order of each body's last part.
     let mut turn = vec![0; numbers.len()];
     order.iter().enumerate().for_each(|(i, &number)| turn[solids[number].body] = i);
 
-    // A point is drawn right after the later of its two bodies, so that whatever hides them hides it.
+    // A point is drawn right after the later of its two bodies, so that whatever hides them also hides it.
     let mut points: BTreeMap<usize, Vec<DVec3>> = BTreeMap::new();
     for contact in world.contacts() {
         let (Some(&a), Some(&b)) = (numbers.get(&contact.a), numbers.get(&contact.b)) else { continue };
@@ -62,7 +62,8 @@ pub fn draw(world: &World3) -> String {
             let mut both = solids.iter().filter(|solid| [a, b].contains(&solid.body));
             let is_seen = both.all(|solid| solid.depth_over(place, &view) < SEEN_THROUGH);
             if is_seen {
-                // Ground is drawn in pieces: those that hide a point come after the body that stands there.
+                // Ground is drawn triangle by triangle; those that hide the point are drawn after the body that stands
+                // there.
                 let later = if is_ground(world, contact.a) {
                     turn[b]
                 } else if is_ground(world, contact.b) {
@@ -74,7 +75,7 @@ pub fn draw(world: &World3) -> String {
             }
         }
     }
-    // What has no end is drawn as far as the rest goes.
+    // Unbounded shapes are cut off where the rest of the scene ends.
     let bounded =
         solids.iter().zip(&outlines).filter(|(solid, _)| solid.part.shape().outer_radius().is_finite());
     let shadows = shadows(&solids, &view);
@@ -93,7 +94,7 @@ fn is_ground(world: &World3, key: BodyKey3) -> bool {
     world.get(key).is_some_and(|body| body.shape().is_ground())
 }
 
-/// Numbers of the solids that are scenery and hide too much.
+/// The numbers of the scenery solids that hide too much.
 fn shadows(solids: &[Solid], view: &View) -> BTreeSet<usize> {
     let is_scenery = |solid: &&Solid| solid.part.is_fixed();
     let movers: Vec<DVec3> =
@@ -109,7 +110,8 @@ fn shadows(solids: &[Solid], view: &View) -> BTreeSet<usize> {
     scenery.filter(|(_, solid)| hides_much(solid)).map(|(number, _)| number).collect()
 }
 
-/// The bodies that are drawn: all, but of a large landscape a square about the body that moves nearest to its middle.
+/// The bodies that are drawn: all of them, or of a large landscape a square around the moving body nearest to its
+/// middle.
 fn shown(world: &World3) -> Vec<(BodyKey3, &Collider3)> {
     let mut bodies: Vec<_> = world.iter().collect();
     if bodies.iter().filter(|(_, body)| body.is_fixed()).count() <= PIECES {
@@ -202,7 +204,7 @@ impl Solid {
         }
     }
 
-    /// The ends of a ball's or a capsule's segment in the world.
+    /// The ends of a ball's or capsule's core segment in the world; `None` for other shapes.
     fn rod(&self) -> Option<[DVec3; 2]> {
         let core = self.part.shape().core();
         let (&first, &last) = (core.vertices().first()?, core.vertices().last()?);
@@ -210,8 +212,8 @@ impl Solid {
         is_round.then(|| [first, last].map(|vertex| self.part.pose().transform(vertex)))
     }
 
-    /// Seen from afar in parallel, a capsule is a thick line with round ends, and so is the light on it: a few
-    /// strokes in place of a hundred faces.
+    /// In parallel projection a capsule is a thick line with round ends, and so are its highlights: a few strokes in
+    /// place of a hundred faces.
     fn draw_rod(&self, canvas: &mut Canvas, view: &View, ends: [DVec3; 2], color: Color) {
         let radius = f64::from(self.part.shape().radius());
         let lit = DVec2::new(view.light.dot(view.right), view.light.dot(view.up));
@@ -230,7 +232,7 @@ impl Solid {
         if self.part.is_fixed() {
             return SCENERY;
         }
-        // Prisms have two faces that all their other faces touch; rocks don't.
+        // In a prism, two faces touch all others; in a rock, none does.
         let corners = self.faces.iter().map(|face| face.corners.len());
         let most = corners.max().unwrap_or(0);
         let base = match self.part.shape() {

@@ -1,7 +1,7 @@
-//! What the stepper must know of a dimension, for space and for the plane.
+//! What differs for the stepper between space and the plane.
 //!
-//! It steps in space. The plane is space without height: places, speeds and pushes keep their third coordinate at zero,
-//! and bodies turn about the third axis alone, since nothing else in their inverse inertia is above zero.
+//! The stepper works in space. The plane is space with z = 0: places, velocities and pushes keep a third coordinate of
+//! zero, and bodies turn about the third axis alone, since all else in their inverse inertia is zero.
 
 use super::body::Mass;
 use super::solver::Point;
@@ -9,17 +9,17 @@ use asunder::glam::{DMat3, DQuat, DVec3};
 use asunder::{Collider, Collider2, Collider3, Manifold2, Manifold3, MassProperties2, MassProperties3};
 use asunder::{Plane, Pose2, Pose3, Rotation2, Space, Volume};
 
-/// A dimension that bodies can be stepped in.
+/// A dimension in which bodies can be stepped.
 pub trait Dimension: Space {
-    /// What a body weighs at unit density; nothing where it is too thin for its mass to be told from zero.
+    /// The mass properties at unit density; `None` where the body is so thin that its mass rounds to zero.
     fn mass(body: &Collider<Self>) -> Option<Mass>;
-    /// Where a body is.
+    /// The pose of a body.
     fn pose_of(body: &Collider<Self>) -> &Self::Pose;
-    /// The place of a body's own origin, and its rotation.
+    /// The position of the body's origin, and its rotation.
     fn place(pose: &Self::Pose) -> (DVec3, DQuat);
-    /// Nothing where the numbers are no pose.
+    /// The pose with such numbers; `None` where they make no valid pose.
     fn pose(position: DVec3, turn: DQuat) -> Option<Self::Pose>;
-    /// The points of a manifold, with arms from where the bodies are; of which bodies, the caller knows.
+    /// The points of a manifold, with arms from the bodies' origins. The caller fills in which bodies they belong to.
     fn points(manifold: &Self::Manifold) -> impl Iterator<Item = Point>;
 }
 
@@ -70,7 +70,8 @@ impl Dimension for Plane {
 
     fn place(pose: &Pose2) -> (DVec3, DQuat) {
         let (cos, sin) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
-        // A quaternion is of half the angle, whose tangent is either of these; that which does not cancel.
+        // The quaternion is of half the angle, whose tangent is (1 - cos) / sin = sin / (1 + cos): take the form that
+        // does not cancel.
         let (z, w) = if cos < 0.0 { (1.0 - cos, sin) } else { (sin, 1.0 + cos) };
         (pose.position().extend(0.0), DQuat::from_xyzw(0.0, 0.0, z, w).normalize())
     }

@@ -1,31 +1,31 @@
-//! Who sleeps: bodies that touch one another fall asleep together, and wake together.
+//! Sleeping: bodies that touch one another fall asleep together and wake together.
 //!
-//! An island is what hangs together by contacts of bodies that pushes can move; scenery joins nobody (Catto,
-//! "Simulation islands", box2d.org, 2023, of which this is the plain form: a union-find over each step's contacts
-//! (Tarjan, 1975), with the least number for the root, so that nothing depends on an order of visits).
+//! An island is a set of bodies that pushes can move, connected by contacts; scenery connects nothing (Catto,
+//! "Simulation islands", box2d.org, 2023). This is the plain form: a union-find over each step's contacts (Tarjan,
+//! 1975), with the least number as root, so that nothing depends on the order of visits.
 
 use core::mem::take;
 
-/// Slower than this, in m/s of any point, a body may sleep.
+/// A body may sleep when no point of it moves faster than this, in m/s.
 const CALM: f64 = 0.05;
-/// An island sleeps when all of it has been calm for so many seconds.
+/// An island sleeps when all of it has been calm for this many seconds.
 const CALM_FOR: f64 = 0.5;
 
 /// The islands of all bodies, by their numbers.
 #[derive(Default)]
 pub(super) struct Islands {
-    /// Of those that pushes move, ascending.
+    /// Those that pushes can move, ascending.
     pub(super) awake: Vec<usize>,
     /// Ascending.
     pub(super) asleep: Vec<usize>,
-    /// Of an island's body, another of the same island with a lower number, or itself. Of a sleeping body: the root.
+    /// For each body a body of its island with a lower number, or itself; for a sleeping body, the root.
     parents: Vec<usize>,
-    /// Seconds that each body has been calm; of a root, while islands are joined, the least of its island.
+    /// For how many seconds each body has been calm; for a root, while islands are joined, the least of its island.
     calm: Vec<f64>,
 }
 
 impl Islands {
-    /// Counts one more body, which is awake if pushes can move it.
+    /// Adds a body, which is awake if pushes can move it.
     pub(super) fn add(&mut self, is_free: bool) {
         let number = self.parents.len();
         self.parents.push(number);
@@ -33,18 +33,18 @@ impl Islands {
         self.awake.extend(is_free.then_some(number));
     }
 
-    /// Notes how fast a body is that is awake; to be followed by what joins it to others.
+    /// Notes how fast an awake body is; [`Self::disturb`] and [`Self::join`] come after.
     pub(super) fn note(&mut self, body: usize, speed_squared: f64, seconds: f64) {
         self.calm[body] = if speed_squared < CALM * CALM { self.calm[body] + seconds } else { 0.0 };
         self.parents[body] = body;
     }
 
-    /// Something that never rests touches the body.
+    /// The body touches something that never rests.
     pub(super) fn disturb(&mut self, body: usize) {
         self.calm[body] = 0.0;
     }
 
-    /// Two bodies that are awake touch.
+    /// Two awake bodies touch.
     pub(super) fn join(&mut self, one: usize, other: usize) {
         let (one, other) = (self.root(one), self.root(other));
         let (low, high) = (one.min(other), one.max(other));
@@ -52,10 +52,10 @@ impl Islands {
         self.calm[low] = self.calm[low].min(self.calm[high]);
     }
 
-    /// Sends islands to sleep that are calm, and returns their bodies.
+    /// Sends calm islands to sleep, and returns their bodies.
     pub(super) fn settle(&mut self) -> Vec<usize> {
         let (calm, restless): (Vec<usize>, _) = take(&mut self.awake).into_iter().partition(|&body| {
-            // No longer a chain: a root may be asked for while its island sleeps.
+            // Flattened: `wake` takes the root of a sleeping body from here.
             self.parents[body] = self.root(body);
             self.calm[self.parents[body]] >= CALM_FOR
         });
@@ -65,7 +65,7 @@ impl Islands {
         calm
     }
 
-    /// Wakes the islands of some bodies that sleep, and returns all bodies of those.
+    /// Wakes the islands of the given sleeping bodies, and returns all bodies of those islands.
     pub(super) fn wake(&mut self, bodies: &[usize]) -> Vec<usize> {
         let mut roots: Vec<usize> = bodies.iter().map(|&body| self.parents[body]).collect();
         roots.sort_unstable();

@@ -1,59 +1,63 @@
-//! The contact solver: pushes at contact points change the velocities of bodies.
+//! The contact solver: impulses at contact points change the velocities of bodies.
 //!
-//! Sequential impulses in short substeps with soft contacts (Catto, "Solver2D", 2024; "soft step" there, and the
-//! solver of Box2D 3): a step is cut into substeps; each one pushes every contact point once with a spring that
-//! removes overlap, moves the bodies, and pushes once more without the spring, so that removing overlap leaves no
-//! speed behind. Contacts are those of one update; between substeps their separations are carried along by what the
-//! bodies moved. At the end, what came fast enough is given the share of its speed that bounces back.
+//! Sequential impulses in short substeps with soft contacts (Catto, "Solver2D", 2024, where it is called "soft step";
+//! the solver of Box2D 3). Each substep
+//! - pushes every contact point once with a spring that removes overlap,
+//! - moves the bodies,
+//! - pushes once more without the spring, so that the removal of overlap leaves no velocity behind.
+//!
+//! The contacts are those of one update; in the substeps their separations are advanced by the motions of the bodies.
+//! At the end, restitution gives back a share of the approach speed where that was high enough.
 
 use super::body::Body;
 use asunder::glam::DVec3;
 use asunder::slotmap::KeyData;
 use core::f64::consts::TAU;
 
-/// Of the contact springs, as a share of the substeps' own rate. A stack at rest sinks in by its weight over the
+/// Frequency of the contact springs, as a share of the substep rate. A stack at rest sinks in by its weight over the
 /// springs' stiffness, which grows with the square of this and of the number of substeps. (Tried 0.25: the lowest rows
 /// of a pyramid a hundred boxes high rattle for ever. More substeps, and not stiffer springs, hold it still.)
 const SPRING_SHARE: f64 = 0.125;
-/// (Tried 10, as Box2D has it: stacks of 20 boxes bounce for seconds. Tried to push without springs from the last point
-/// to the first: towers of boxes sway.)
+/// Damping ratio of the contact springs. (Tried 10, as in Box2D: stacks of 20 boxes bounce for seconds. Tried to push
+/// without springs from the last point to the first: towers of boxes sway.)
 const SPRING_DAMPING: f64 = 5.0;
-/// The fastest that overlap is removed, in m/s: a body that starts deep inside another is not shot out.
+/// The greatest speed at which overlap is removed, in m/s: a body that starts deep inside another is not shot out.
 const PUSH_SPEED: f64 = 3.0;
-/// What comes slower than this, in m/s, does not bounce, or nothing would ever come to rest.
+/// Contacts that close slower than this, in m/s, do not bounce, or nothing would ever come to rest.
 const BOUNCE_SPEED: f64 = 1.0;
 
-/// A point where two bodies touch or nearly do, and how it pushes them.
+/// A contact point of two bodies, and the impulses at it.
 #[derive(Clone, Debug, Default)]
 pub struct Point {
-    /// Both bodies, in the world's order: their keys there, and their numbers here.
+    /// The keys of both bodies in the world, in its order.
     pub(super) keys: [KeyData; 2],
-    /// The numbers of both bodies.
+    /// The numbers of both bodies, in the same order.
     pub bodies: [usize; 2],
-    /// What stays the same of it from frame to frame: which parts of both bodies, and the bits of its feature id.
+    /// What identifies the point from frame to frame: the parts of both bodies, and the bits of its feature id.
     pub feature: (u32, u32, u64),
     /// From the first body to the second.
     pub normal: DVec3,
-    /// In metres; negative in overlap.
+    /// In metres; negative where they overlap.
     pub separation: f64,
-    /// From the centres of mass.
+    /// From the centres of mass to the point.
     pub arms: [DVec3; 2],
-    /// Of both bodies, as a push along the normal feels it; zero where it moves neither.
+    /// The effective mass of both bodies along the normal; zero where no push moves either.
     pub(super) mass: f64,
-    /// What it has pushed so far, kept from step to step as the first guess of the next.
+    /// The accumulated impulses along the normal and of friction, kept as the first guess of the next step.
     pub(super) apart: f64,
     pub(super) aside: DVec3,
-    /// How fast both came together before the step, in m/s (negative), and the hardest push of any substep.
+    /// The separation speed before the step, in m/s (negative: they approach), and the largest normal impulse of any
+    /// substep.
     pub(super) speed_before: f64,
     pub(super) hardest: f64,
 }
 
-/// What all points have in common in one pass of a substep.
+/// What all points share in one pass of a substep.
 pub(super) struct Pass {
     /// In seconds.
     substep: f64,
     friction: f64,
-    /// Of the spring, speed asked for per metre of overlap.
+    /// The speed that the spring asks for per metre of overlap.
     rate: f64,
     mass_share: f64,
     push_share: f64,
@@ -69,14 +73,14 @@ impl Pass {
         Self { substep, friction, rate, mass_share, push_share }
     }
 
-    /// Without: what is left is that bodies do not come closer.
+    /// Without springs: all that is asked is that the bodies do not come closer.
     pub(super) fn stiff(&self) -> Self {
         Self { rate: 0.0, mass_share: 1.0, push_share: 0.0, ..*self }
     }
 }
 
-/// Lets points push as they did in the last step. Both lists are in the world's order of pairs, so what each pair
-/// pushed last is found by walking along.
+/// Starts each point with the impulses of the last step. Both lists are in the world's order of pairs, so one walk
+/// along both finds the last points of each pair.
 pub(super) fn warm_start(points: &mut [Point], last: &[Point]) {
     let mut start = 0;
     for point in points {
@@ -85,7 +89,7 @@ pub(super) fn warm_start(points: &mut [Point], last: &[Point]) {
         }
         let mut of_pair = last[start..].iter().take_while(|last| last.keys == point.keys);
         if let Some(last) = of_pair.find(|last| last.feature == point.feature) {
-            // Sideways only as far as the new normal agrees.
+            // The friction impulse must stay perpendicular to the new normal.
             point.apart = last.apart;
             point.aside = last.aside.reject_from_normalized(point.normal);
         }
@@ -93,27 +97,27 @@ pub(super) fn warm_start(points: &mut [Point], last: &[Point]) {
 }
 
 impl Point {
-    /// Before the first substep: what does not change in any.
+    /// Computes what stays the same in all substeps.
     pub(super) fn prepare(&mut self, bodies: &[Body]) {
         let yielding = self.yielding(bodies, self.normal);
         self.mass = if yielding > 0.0 { 1.0 / yielding } else { 0.0 };
         self.speed_before = self.speed(bodies);
     }
 
-    /// Pushes B, and A the other way.
+    /// Applies an impulse to B, and the opposite one to A.
     pub(super) fn apply(&self, bodies: &mut [Body], push: DVec3) {
         let ([a, b], [arm_a, arm_b]) = (self.bodies, self.arms);
         bodies[a].push(arm_a, -push);
         bodies[b].push(arm_b, push);
     }
 
-    /// The velocity of B's point, as seen from A's.
+    /// The velocity of B's point relative to A's.
     fn drift(&self, bodies: &[Body]) -> DVec3 {
         let [a, b] = self.bodies.map(|number| &bodies[number]);
         b.velocity_at(self.arms[1]) - a.velocity_at(self.arms[0])
     }
 
-    /// How fast the bodies part, in m/s.
+    /// How fast the bodies separate along the normal, in m/s.
     pub(super) fn speed(&self, bodies: &[Body]) -> f64 {
         self.drift(bodies).dot(self.normal)
     }
@@ -123,8 +127,8 @@ impl Point {
         a.yielding(self.arms[0], direction) + b.yielding(self.arms[1], direction)
     }
 
-    /// Friction first, as in Box2D 2.4: what keeps bodies apart has the last word. (The other way round, a pyramid with
-    /// a base of 60 settles 7 mm off its middle along its rows, and not 1.)
+    /// Friction is solved first, as in Box2D 2.4, so that non-penetration has the last word. (The other way round, a
+    /// pyramid with a base of 60 settles 7 mm off its middle along its rows, and not 1.)
     pub(super) fn push(&mut self, bodies: &mut [Body], pass: &Pass) {
         self.push_aside(bodies, pass.friction);
         let ([a, b], [arm_a, arm_b]) = (self.bodies.map(|number| &bodies[number]), self.arms);
@@ -132,7 +136,7 @@ impl Point {
         let separation = self.separation + carried.dot(self.normal);
         let speed = self.speed(bodies);
         let push = if separation > 0.0 {
-            // In a gap: allow as much speed as closes it.
+            // In a gap (speculative): the speed that just closes it in this substep is allowed.
             -self.mass * (speed + separation / pass.substep)
         } else {
             let wanted = (pass.rate * separation).max(-PUSH_SPEED);
@@ -148,7 +152,7 @@ impl Point {
         self.hardest = self.hardest.max(apart);
     }
 
-    /// Friction: stops sliding, with at most a share of what pushes apart.
+    /// Friction: stops sliding, with an impulse of at most `friction` times the normal impulse.
     fn push_aside(&mut self, bodies: &mut [Body], friction: f64) {
         let most = friction * self.apart;
         if most == 0.0 && self.aside == DVec3::ZERO {
@@ -172,7 +176,7 @@ impl Point {
         self.aside = aside;
     }
 
-    /// Gives back a share of the speed that both came with, where they did meet.
+    /// Restitution: gives back a share of the approach speed, where the point did push.
     pub(super) fn bounce(&mut self, bodies: &mut [Body], restitution: f64) {
         if self.speed_before > -BOUNCE_SPEED || self.hardest == 0.0 {
             return;

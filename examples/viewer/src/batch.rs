@@ -8,15 +8,15 @@ use macroquad::color::Color;
 use macroquad::math::{Vec2, Vec3 as Point, Vec4};
 use macroquad::models::{Mesh, Vertex, draw_line_3d, draw_mesh};
 
-/// Vertices a draw call, and indices: a vertex must have a number of 16 bits.
+/// The limits of a draw call: vertices are numbered with 16 bits.
 pub(crate) const MOST_VERTICES: usize = 60_000;
-/// Of triangles in fans, fewer than three a vertex.
+/// Faces are fans of triangles, with fewer than three indices per vertex.
 pub(crate) const MOST_INDICES: usize = 3 * MOST_VERTICES;
 
-/// Where a body is, seen from the view's target.
+/// The pose of a body relative to the view's target.
 pub(crate) struct Frame {
     pub(crate) position: Vec3,
-    /// Its axes in the world.
+    /// The body's axes in the world.
     pub(crate) axes: [Vec3; 3],
 }
 
@@ -26,7 +26,7 @@ impl Frame {
     }
 }
 
-/// Triangles to be drawn together. Memory is kept from frame to frame.
+/// Triangles to be drawn together. Memory is reused from frame to frame.
 #[derive(Default)]
 pub(crate) struct Batch {
     meshes: Vec<Mesh>,
@@ -34,7 +34,7 @@ pub(crate) struct Batch {
 }
 
 impl Batch {
-    /// Forgets the triangles of the last frame.
+    /// Removes the triangles of the last frame.
     pub(crate) fn clear(&mut self) {
         for mesh in &mut self.meshes {
             mesh.vertices.clear();
@@ -43,11 +43,11 @@ impl Batch {
         self.used = 0;
     }
 
-    /// Adds what of a body looks at the viewer, shaded by the light.
+    /// Adds the faces of a body that face the viewer, shaded by the light.
     pub(crate) fn add(&mut self, form: &Form, frame: &Frame, view: &View, paint: Paint) {
         let [_, up, back] = view.axes().map(DVec3::as_vec3);
         let eye = back * view.distance as f32;
-        // From over the viewer's shoulder, so that three faces of a box always differ.
+        // From over the viewer's shoulder, so that three faces of a box always differ in shade.
         let light = (Vec3::Y + back * 0.6 + up * 0.2 + Vec3::new(-0.45, 0.0, 0.1)).normalize();
         let mut corners = form.corners.as_slice();
         for face in &form.faces {
@@ -89,7 +89,7 @@ impl Batch {
         mesh.indices.extend(fan);
     }
 
-    /// Draws all of it.
+    /// Draws all triangles.
     pub(crate) fn draw(&self) {
         self.meshes.iter().filter(|mesh| !mesh.indices.is_empty()).for_each(draw_mesh);
     }
@@ -100,7 +100,7 @@ impl Batch {
 pub(crate) struct Lines(Vec<([Point; 2], Color)>);
 
 impl Lines {
-    /// Forgets those of the last frame.
+    /// Removes the lines of the last frame.
     pub(crate) fn clear(&mut self) {
         self.0.clear();
     }
@@ -111,14 +111,14 @@ impl Lines {
         self.0.push((ends, Color::from(color)));
     }
 
-    /// Draws all of them, the fainter the lower the share.
+    /// Draws all lines, with their opacity multiplied by the share.
     pub(crate) fn draw(&self, share: f32) {
         for &([from, to], color) in &self.0 {
             draw_line_3d(from, to, Color { a: color.a * share, ..color });
         }
     }
 
-    /// How faint they must be where they lie over each other: thousands would hide all else.
+    /// The opacity for lines that lie over each other: thousands of full ones would hide all else.
     pub(crate) fn share(&self) -> f32 {
         (400.0 / (self.0.len() as f32 + 1.0)).clamp(0.04, 0.9)
     }

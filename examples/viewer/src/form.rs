@@ -1,14 +1,14 @@
-//! Shapes as triangles, made once.
+//! Shapes as triangles, made once for each shape.
 
 use asunder::glam::{DVec2, DVec3, Vec3};
 
-/// Tiles along each side of what stands for an endless plane.
+/// Tiles along each side of the board that stands for an unbounded plane.
 const TILES: i32 = 24;
 
-/// What a shape looks like, in its own axes.
+/// A shape's faces, in its own axes.
 #[derive(Default)]
 pub(crate) struct Form {
-    /// The corners of all faces, each face's own.
+    /// The corners of all faces, one face after the other.
     pub(crate) corners: Vec<Vec3>,
     pub(crate) faces: Vec<Facet>,
 }
@@ -16,14 +16,14 @@ pub(crate) struct Form {
 /// A convex face.
 pub(crate) struct Facet {
     pub(crate) normal: Vec3,
-    /// So many corners, after those of the faces before.
+    /// The number of its corners, which follow those of the faces before.
     pub(crate) count: u32,
-    /// What its colour is multiplied by.
+    /// A factor for the brightness of its colour.
     pub(crate) tone: f32,
 }
 
 impl Form {
-    /// Adds a face; one of fewer than three corners is none.
+    /// Adds a face; ignores one with fewer than three corners.
     pub(crate) fn add(&mut self, normal: DVec3, corners: impl IntoIterator<Item = DVec3>, tone: f32) {
         let first = self.corners.len();
         self.corners.extend(corners.into_iter().map(|corner| corner.as_vec3()));
@@ -34,12 +34,12 @@ impl Form {
         self.faces.push(Facet { normal: normal.as_vec3(), count: count as u32, tone });
     }
 
-    /// A face in the plane.
+    /// Adds a face in the plane.
     pub(crate) fn add_flat(&mut self, outline: &[DVec2]) {
         self.add(DVec3::Z, outline.iter().map(|point| point.extend(0.0)), 1.0);
     }
 
-    /// A board of tiles, as far as the scene goes, for the border of a half-space.
+    /// A board of tiles as large as the scene, for the boundary of a half-space.
     pub(crate) fn board(normal: DVec3, half: f64) -> Self {
         let mut form = Self::default();
         let across = if normal.y.abs() > 0.9 { DVec3::X } else { DVec3::Y };

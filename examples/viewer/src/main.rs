@@ -1,10 +1,10 @@
-//! A window on scenes: `cargo run --release -p asunder-viewer -- --scene washer`.
+//! A window that shows scenes: `cargo run --release -p asunder-viewer -- --scene washer`.
 //!
-//! Shows what the engine finds while a game steps: boxes, candidate pairs, contacts, normals, what was settled by which
-//! tier of precision, and what each stage costs. Bodies can be picked up and thrown. `--shot FILE.png --frame 120`
-//! writes a picture after so many steps and leaves; a virtual display will do: `xvfb-run -a`.
+//! Shows what the engine finds while a game steps: boxes, candidate pairs, contacts, normals, which tier of precision
+//! decided each contact, and what each stage costs. Bodies can be picked up and thrown. `--shot FILE.png --frame 120`
+//! writes a picture after so many steps and exits; a virtual display is enough: `xvfb-run -a`.
 //!
-//! Exit codes: 2 for options, scenes and files that are wrong, 3 where no window can be opened.
+//! Exit codes: 2 for wrong options, scenes or files, 3 where no window can be opened.
 
 mod batch;
 mod form;
@@ -74,12 +74,12 @@ fn main() -> ExitCode {
     run(window, shot)
 }
 
-/// Opens the window; where there is none to open, macroquad panics.
+/// Opens the window; where none can be opened, macroquad panics.
 fn run(window: Window, shot: Option<Shot>) -> ExitCode {
     let outcome = Rc::new(RefCell::new(None));
     let told = Rc::clone(&outcome);
     let future = async move {
-        // From here on a panic is a fault of ours, and says where.
+        // From here on a panic is a fault of this program, and reports where.
         drop(take_hook());
         let result = match shot {
             Some((file, steps)) => window.shoot(&file, steps).await,

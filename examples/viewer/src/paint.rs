@@ -16,13 +16,13 @@ impl Paint {
     pub(crate) const RUBBER: Self = Self([0.48, 0.70, 0.46, 1.0]);
     pub(crate) const METAL: Self = Self([0.36, 0.60, 0.76, 1.0]);
     pub(crate) const INK: Self = Self([0.13, 0.12, 0.14, 1.0]);
-    /// Of bodies whose contacts are not asked after.
+    /// For bodies without a contact whose tier is known.
     pub(crate) const PALE: Self = Self([0.80, 0.81, 0.83, 1.0]);
-    /// Of lines between candidates.
+    /// For lines between candidate pairs.
     pub(crate) const PAIR: Self = Self([0.45, 0.20, 0.62, 0.8]);
     const NIGHT: [f32; 3] = [0.35, 0.38, 0.55];
 
-    /// What settled a question.
+    /// The colour of the tier that decided a pair.
     pub(crate) fn of_tier(tier: Tier) -> Self {
         match tier {
             Tier::Bound => Self([0.25, 0.66, 0.35, 1.0]),
@@ -31,7 +31,7 @@ impl Paint {
         }
     }
 
-    /// A little lighter or darker from body to body, so that neighbours stand apart.
+    /// A little lighter or darker by body number, so that neighbours stand apart.
     pub(crate) fn varied(self, number: usize) -> Self {
         let scrambled = (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
         let tone = 0.86 + 0.26 * (scrambled as f32 / (1 << 24) as f32);
@@ -44,14 +44,14 @@ impl Paint {
         Self([r, g, b, opacity])
     }
 
-    /// As one that sleeps.
+    /// The colour of a sleeping body.
     pub(crate) fn asleep(self) -> Self {
         let [r, g, b, a] = self.0;
         let [night_r, night_g, night_b] = Self::NIGHT;
         Self([0.45 * r + 0.55 * night_r, 0.45 * g + 0.55 * night_g, 0.45 * b + 0.55 * night_b, a])
     }
 
-    /// Shaded, as macroquad wants it.
+    /// Shaded, in macroquad's format.
     pub(crate) fn bytes(self, shade: f32) -> [u8; 4] {
         let [r, g, b, a] = self.0;
         [r * shade, g * shade, b * shade, a].map(|c| (c * 255.0).clamp(0.0, 255.0) as u8)

@@ -1,4 +1,4 @@
-//! Words on the screen.
+//! Text on the screen.
 
 use crate::toggles::{Layer, Toggles};
 use macroquad::color::Color;
@@ -21,7 +21,7 @@ const KEYS: [&str; 5] = [
     "F whole scene   Esc leave",
 ];
 
-/// Figures at the upper left, keys at the lower left: what is on in full ink.
+/// Draws figures at the upper left and keys at the lower left; layers that are on have full ink.
 pub(crate) fn draw(title: &str, report: &[String], toggles: &Toggles) {
     let lines = || std::iter::once(title).chain(report.iter().map(String::as_str));
     paper(EDGE, lines());
@@ -42,7 +42,7 @@ pub(crate) fn draw(title: &str, report: &[String], toggles: &Toggles) {
     }
 }
 
-/// One line in the middle of the upper edge.
+/// Draws one line in the middle of the upper edge.
 pub(crate) fn note(text: &str) {
     let width = measure_text(text, None, SIZE as u16, 1.0).width;
     let left = 0.5 * (screen_width() - width);
@@ -50,7 +50,7 @@ pub(crate) fn note(text: &str) {
     draw_text(text, left, 2.0 * EDGE + 0.6 * LINE, SIZE, INK);
 }
 
-/// A sheet behind lines of text.
+/// Draws a sheet behind lines of text.
 fn paper<'a>(top: f32, lines: impl Iterator<Item = &'a str>) {
     let (mut widest, mut count) = (300.0_f32, 0);
     for line in lines {

@@ -1,4 +1,4 @@
-//! A game that is watched: steps, what is held, and what the panel says of it.
+//! A game that is being watched: its steps, the body in the user's hand, and the text of the panel.
 
 use crate::sight::Sight;
 use crate::stand::Stand;
@@ -15,28 +15,28 @@ use core::time::Duration;
 use std::error::Error;
 use std::time::Instant;
 
-/// How fast what is held goes to the hand: the share of the way, a second.
+/// How fast a held body goes to the hand: the share of the distance per second.
 const PULL: f64 = 10.0;
-/// And no faster than this, in m/s.
+/// The greatest speed of a held body, in m/s.
 const FASTEST: f64 = 60.0;
 
-/// A game of either dimension, as the window needs it.
+/// A game of either dimension, as seen by the window.
 pub(crate) trait Show {
-    /// One step of 1/60 s; what is held goes towards the hand.
+    /// Does one step of 1/60 s; a held body goes towards the hand.
     fn step(&mut self, hand: Option<DVec3>);
     /// Draws a frame.
     fn draw(&mut self, view: &View, toggles: &Toggles);
-    /// What the panel says, line by line.
+    /// The lines of the panel.
     fn report(&self) -> Vec<String>;
-    /// Takes hold of the body that is seen along a ray, if it can be moved: where.
+    /// Takes hold of the body first seen along a ray, if it can be moved, and returns the point.
     fn hold(&mut self, ray: (DVec3, DVec3)) -> Option<DVec3>;
-    /// Lets go.
+    /// Lets go of the held body.
     fn release(&mut self);
-    /// Where what is held was taken hold of is now.
+    /// Where the held point of the body is now.
     fn held(&self) -> Option<DVec3>;
     /// The box that the picture should show.
     fn bounds(&self) -> (DVec3, DVec3);
-    /// Whether this is the plane.
+    /// Whether this is a game in the plane.
     fn is_flat(&self) -> bool;
 }
 
@@ -62,13 +62,13 @@ struct Player<S: Sight> {
     stand: Stand<S>,
     times: Times,
     held: Option<Held>,
-    /// What it took to gather the last frame.
+    /// The time it took to draw the last frame.
     drawing: Duration,
 }
 
 struct Held {
     number: usize,
-    /// From the centre of mass to where it is held.
+    /// From the centre of mass to the point at which it is held.
     offset: DVec3,
 }
 
@@ -86,7 +86,7 @@ impl<S: Sight> Show for Player<S> {
             let velocity = ((hand - place) * PULL).clamp_length_max(FASTEST);
             self.game.set_velocity(held.number, S::within(velocity));
         }
-        // Of the last step alone.
+        // The panel shows the last step alone.
         self.times = Times::default();
         self.times.measure(&mut self.game, |game| game.stepper.world.stats(), |game| game.step(STEP));
     }
@@ -154,7 +154,7 @@ mod tests {
             let Ok(mut player) = show(&stage.build(5, 1)) else { panic!("it opens") };
             let (low, high) = player.bounds();
             let mut found = None;
-            // Through each point of a lattice over the scene, as if from the front.
+            // Casts a ray from the front through each point of a lattice over the scene.
             for i in 0..400 {
                 let share = DVec3::new(f64::from(i % 20) / 20.0, f64::from(i / 20) / 20.0, 0.5);
                 let through = low + (high - low) * share;

@@ -1,4 +1,4 @@
-//! What stands on the screen: bodies as triangles, and lines over them.
+//! What a game looks like on the screen: bodies as triangles, and lines over them.
 
 use crate::batch::{Batch, Lines};
 use crate::form::Form;
@@ -12,47 +12,47 @@ use asunder_examples::game::Game;
 use macroquad::camera::set_camera;
 use std::collections::BTreeMap;
 
-/// No more bodies than this are drawn: those that are nearest.
+/// The most bodies that are drawn: the nearest ones.
 const MOST: usize = 40_000;
-/// Scenes of more sizes of a body from their middle are not shown whole at first,
+/// A scene whose half diagonal is more than this many body sizes is not shown whole at first,
 const FARTHEST: f64 = 300.0;
-/// but so many from a body.
+/// but only this many body sizes around one body.
 const NEAR: f64 = 30.0;
-/// Rays from the eye along each side of the scene that ask what hides it.
+/// The eye sends rays to a lattice of this many points along each side of the scene, to find what hides it.
 const RAYS: usize = 5;
-/// Scenery that so many of them meet is left out.
+/// Large scenery that at least this many of them hit is left out.
 const HIDES: usize = 3;
 
-/// The look of a game.
+/// How a game is drawn.
 pub(crate) struct Stand<S: Sight> {
     forms: Vec<Form>,
-    /// By shape, for those that many bodies may have.
+    /// Forms by shape, for shapes that many bodies may share.
     known: BTreeMap<[u64; 3], u32>,
-    /// By the body's number.
+    /// Forms by body number.
     form_of: Vec<Option<u32>>,
-    /// Whether a body goes its own way; by number.
+    /// Whether a body is driven, by number.
     driven: Vec<bool>,
-    /// The box around what pushes moved at the start, and that with what is driven.
+    /// The box around the bodies that pushes could move at the start, and that box with the driven bodies.
     room: (DVec3, DVec3),
     bounds: (DVec3, DVec3),
-    /// Of the bodies that move, about, in metres.
+    /// The typical size of the moving bodies, in metres.
     size: f64,
     solid: Batch,
     glass: Batch,
     thin: Lines,
     over: Lines,
-    /// Scenery that is left out, ascending.
+    /// Keys of scenery that is left out, ascending.
     hidden: Vec<S::Key>,
     tiers: Tiers,
     left_out: usize,
 }
 
-/// By what the contacts of a step were settled.
+/// The tiers that decided the contacts of a step.
 #[derive(Default)]
 struct Tiers {
-    /// Of which step.
+    /// The step.
     step: Option<u32>,
-    /// The highest of each body's contacts; by number.
+    /// For each body, by number, the highest tier of its contacts.
     of_body: Vec<Option<Tier>>,
     marks: Vec<(DVec3, Tier)>,
     counts: [usize; 3],
@@ -82,7 +82,8 @@ impl<S: Sight> Stand<S> {
         stand
     }
 
-    /// The box around what moves, with the room that is never left; around all that has an end, where nothing moves.
+    /// Finds the box around what moves, with the room that is never left; where nothing moves, around all bounded
+    /// bodies.
     fn measure(&mut self, game: &Game<S>, (low, high): (DVec3, DVec3)) {
         let is_driven = |key| game.stepper.number(key).is_some_and(|number| self.is_driven(number));
         let bodies = || game.stepper.world.iter().filter(|(_, body)| S::ball(body).1.is_finite());
@@ -101,11 +102,11 @@ impl<S: Sight> Stand<S> {
         let size = if sum > 0.0 { sum / count } else { room.0.distance(room.1) * 0.05 };
         let mut bounds = driven.map_or(room, |driven| both(room, driven));
         if low.is_finite() && high.is_finite() {
-            // Where they will go in a closed room; seldom up.
+            // Where bodies will go in a closed room; they seldom go up.
             bounds = both(bounds, (low, DVec3::new(high.x, high.y.min(bounds.1.y), high.z)));
         }
         if bounds.0.distance(bounds.1) > 2.0 * FARTHEST * size {
-            // A world too large to see anything of from outside: where a body is, near the middle.
+            // A world too large for its bodies to be seen from outside: show the surroundings of one near the middle.
             let middle = (bounds.0 + bounds.1) * 0.5;
             let centers = free().map(|(_, body)| S::ball(body).0);
             let near = centers.min_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
@@ -119,17 +120,17 @@ impl<S: Sight> Stand<S> {
         self.bounds
     }
 
-    /// Scenery that is not drawn.
+    /// The scenery that is not drawn.
     pub(crate) fn hidden(&self) -> &[S::Key] {
         &self.hidden
     }
 
-    /// Whether a body goes its own way.
+    /// Whether a body is driven.
     pub(crate) fn is_driven(&self, number: usize) -> bool {
         self.driven.get(number).is_some_and(|&is| is)
     }
 
-    /// What there is to say besides the counts.
+    /// A note to be shown besides the counts.
     pub(crate) fn note(&self) -> Option<String> {
         let [bound, double, exact] = self.tiers.counts;
         match (self.left_out, self.tiers.step) {
@@ -161,13 +162,13 @@ impl<S: Sight> Stand<S> {
         self.thin.draw(1.0);
         self.over.draw(1.0);
         if !S::FLAT {
-            // Most of what is between bodies lies inside the heap.
+            // Most lines between bodies lie inside the heap, so they are also drawn faintly through the bodies.
             set_camera(&view.lens(false));
             self.over.draw(self.over.share());
         }
     }
 
-    /// Notes scenery that stands between the eye and where the bodies are.
+    /// Finds the scenery that stands between the eye and the bodies.
     fn cut_away(&mut self, game: &Game<S>, view: &View, is_on: bool) {
         self.hidden.clear();
         if S::FLAT || !is_on {
@@ -208,7 +209,7 @@ impl<S: Sight> Stand<S> {
             seen.select_nth_unstable_by(MOST, |a, b| a.0.total_cmp(&b.0));
             seen.truncate(MOST);
         }
-        // In the plane scenery lies below all else.
+        // In the plane, scenery is drawn below all else.
         for is_fixed in [true, false] {
             for &(_, key, body) in seen.iter().filter(|seen| seen.2.is_fixed() == is_fixed) {
                 let Some(number) = game.stepper.number(key) else { continue };
@@ -298,7 +299,7 @@ impl<S: Sight> Stand<S> {
     }
 }
 
-/// The box around boxes. What flies far outside, of which there is one in a hundred or less, is left out.
+/// The box around boxes. Far outliers, at most one box in a hundred, are left out.
 fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
     let (mut low, mut high) = boxes.iter().copied().reduce(both)?;
     let few = boxes.len().div_ceil(100);
@@ -316,8 +317,8 @@ fn most(boxes: Vec<(DVec3, DVec3)>) -> Option<(DVec3, DVec3)> {
     Some((low, high))
 }
 
-/// The box around all of these; around the wheel that they turn in, about an axis along z, where they surround others:
-/// a drum, whose corners will be anywhere.
+/// The box around these boxes. If they surround the others, as a drum does, the box of the wheel that they turn in
+/// about an axis along z, since their corners will be anywhere on it.
 fn turning(driven: &[(DVec3, DVec3)], inside: (DVec3, DVec3)) -> Option<(DVec3, DVec3)> {
     let (low, high) = driven.iter().copied().reduce(both)?;
     let surrounds = (low.cmple(inside.0) & high.cmpge(inside.1)).bitmask() & 0b011 == 0b011;

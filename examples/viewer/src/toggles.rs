@@ -1,4 +1,4 @@
-//! What is shown, and by which key.
+//! The layers that are shown, and their keys.
 
 use clap::ValueEnum;
 use macroquad::input::KeyCode;
@@ -29,7 +29,7 @@ pub(crate) enum Layer {
 }
 
 impl Layer {
-    /// Every one, with its key and what it is called on the screen.
+    /// Every layer, with its key and its name on the screen.
     pub(crate) const ALL: [(Self, KeyCode, &'static str); 10] = [
         (Self::Fill, KeyCode::Key1, "1 filled"),
         (Self::Boxes, KeyCode::Key2, "2 boxes"),

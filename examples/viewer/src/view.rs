@@ -5,21 +5,21 @@ use macroquad::camera::Camera;
 use macroquad::math::{Mat4, Vec3};
 use macroquad::texture::RenderPass;
 
-/// Half the angle from the lower to the upper edge of the picture, as a tangent.
+/// Tangent of half the angle between the lower and the upper edge of the picture.
 const HALF_ANGLE: f64 = 0.41;
-/// Air around what is shown at first.
+/// A margin around what is shown at first, as a factor.
 const AIR: f64 = 1.06;
 
 /// An eye that circles around a point, or looks down on the plane.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
-    /// What it looks at. All is drawn relative to it: far out, f32 would be too coarse.
+    /// The point it looks at. All is drawn relative to it: far from the origin f32 would be too coarse.
     pub(crate) target: DVec3,
-    /// From there to the eye; in the plane, what makes the same height.
+    /// From the target to the eye; in the plane, the distance that would give the same height of the picture.
     pub(crate) distance: f64,
-    /// About the vertical, in radians.
+    /// The angle about the vertical, in radians.
     turn: f64,
-    /// Above the horizon, in radians.
+    /// The angle above the horizon, in radians.
     rise: f64,
     axes: [DVec3; 3],
     /// Whether this is the plane, without perspective.
@@ -29,7 +29,7 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// One that shows the whole of a box.
+    /// A view that shows the whole of a box.
     pub(crate) fn of((low, high): (DVec3, DVec3), is_flat: bool, aspect: f64) -> Self {
         let (turn, rise) = if is_flat { (0.0, 0.0) } else { (0.55, 0.36) };
         let axes = axes(turn, rise);
@@ -48,7 +48,7 @@ impl View {
         view
     }
 
-    /// To the right, up, and towards the viewer, each of length 1.
+    /// The directions to the right, up, and towards the viewer, each of length 1.
     pub(crate) fn axes(&self) -> [DVec3; 3] {
         self.axes
     }
@@ -58,7 +58,7 @@ impl View {
         self.target + self.axes()[2] * self.distance
     }
 
-    /// From where and to where one looks through a point of the picture, each of its coordinates from -1 to 1.
+    /// The ray through a point of the picture, whose coordinates are from -1 to 1: its origin and direction.
     pub(crate) fn ray(&self, [x, y]: [f64; 2]) -> (DVec3, DVec3) {
         let [right, up, back] = self.axes();
         let aside = (right * (x * self.aspect) + up * y) * HALF_ANGLE;
@@ -68,25 +68,26 @@ impl View {
         }
     }
 
-    /// Where that meets the plane through a point that looks at the eye.
+    /// Where that ray meets the plane through a point that faces the eye.
     pub(crate) fn beside(&self, at: [f64; 2], point: DVec3) -> DVec3 {
         let (from, direction) = self.ray(at);
         let back = self.axes()[2];
         from + direction * ((from - point).dot(back) / -direction.dot(back))
     }
 
-    /// Whether something of a ball may be seen.
+    /// Whether part of a ball may be visible.
     pub(crate) fn sees(&self, center: DVec3, radius: f64) -> bool {
         let [right, up, back] = self.axes();
         let from = center - self.target;
         let depth = if self.is_flat { self.distance } else { self.distance - from.dot(back) };
-        // The edge of the view leans: a ball reaches further along it than it is thick, by at most this.
+        // The sides of the view volume are slanted: along its axes a ball reaches further than its radius, by at most
+        // this factor.
         let reach = radius * 1.5;
         let high = depth.max(0.0) * HALF_ANGLE + reach;
         depth > -radius && from.dot(up).abs() < high && from.dot(right).abs() < high * self.aspect + reach
     }
 
-    /// Goes around the target by so many radians.
+    /// Orbits around the target by so many radians.
     pub(crate) fn orbit(&mut self, turn: f64, rise: f64) {
         if !self.is_flat {
             self.turn += turn;
@@ -95,18 +96,18 @@ impl View {
         }
     }
 
-    /// Goes aside, by shares of half the picture's height.
+    /// Moves aside, by shares of half the picture's height.
     pub(crate) fn pan(&mut self, x: f64, y: f64) {
         let [right, up, _] = self.axes();
         self.target += (right * x + up * y) * (self.distance * HALF_ANGLE);
     }
 
-    /// Comes nearer where the factor is below 1.
+    /// Moves nearer if the factor is below 1.
     pub(crate) fn zoom(&mut self, factor: f64) {
         self.distance = (self.distance * factor).clamp(1e-5, 1e7);
     }
 
-    /// What macroquad draws by. Without depth, what is drawn hides all that was there.
+    /// The camera for macroquad. Without depth, whatever is drawn covers what was drawn before.
     pub(crate) fn lens(&self, has_depth: bool) -> Lens {
         let vec3 = |v: DVec3| Vec3::from_array(v.as_vec3().to_array());
         let [_, up, back] = self.axes();
@@ -130,7 +131,7 @@ fn axes(turn: f64, rise: f64) -> [DVec3; 3] {
     [right, back.cross(right), back]
 }
 
-/// A camera of macroquad's that may do without depth.
+/// A camera for macroquad that can do without a depth buffer.
 pub(crate) struct Lens {
     matrix: Mat4,
     has_depth: bool,

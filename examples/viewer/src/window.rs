@@ -1,4 +1,4 @@
-//! The window: what the user does, and when to step.
+//! The window: input from the user, and when to step.
 
 use crate::panel;
 use crate::player::{Show, show};
@@ -22,23 +22,23 @@ use std::fs::OpenOptions;
 use std::path::{Path, PathBuf};
 
 const SKY: Color = Color::new(0.90, 0.93, 0.96, 1.0);
-/// Time that is owed beyond so many steps a frame is forgotten: a slow scene runs slower.
+/// Time owed beyond this many steps a frame is forgotten: a slow scene runs slower.
 const MOST_STEPS: f64 = 2.0;
 
-/// What is shown, and what the user has in hand.
+/// The scene that is shown, and the state of the user's input.
 pub(crate) struct Window {
-    /// As it was opened, to start again.
+    /// As it was opened, to restart it.
     scene: Scene,
     name: String,
     show: Box<dyn Show>,
     view: View,
     toggles: Toggles,
     is_paused: bool,
-    /// Seconds that have passed and were not stepped yet.
+    /// Seconds that have passed and have not been stepped yet.
     owed: f64,
-    /// Whether the mouse goes around.
+    /// Whether dragging the mouse orbits the view.
     is_orbiting: bool,
-    /// What is opened as soon as the screen says so: a million bodies take seconds.
+    /// The scene to open once the screen shows its name: a million bodies take seconds.
     next: Option<Stage>,
 }
 
@@ -83,13 +83,13 @@ impl Window {
         }
     }
 
-    /// Draws the scene after so many steps, and writes what is seen.
+    /// Draws the scene after so many steps, and writes the picture.
     ///
     /// # Errors
-    /// A picture of one colour: nothing was drawn.
+    /// The picture has only one colour: nothing was drawn.
     pub(crate) async fn shoot(mut self, file: &Path, steps: u32) -> Result<(), String> {
         (0..steps).for_each(|_| self.show.step(None));
-        // A frame to let the window come up, and one for fonts.
+        // One frame for the window to come up, and one for the fonts.
         for _ in 0..2 {
             self.whole();
             self.draw();
@@ -106,7 +106,7 @@ impl Window {
         Ok(())
     }
 
-    /// Looks at the whole scene.
+    /// Shows the whole scene.
     fn whole(&mut self) {
         self.view = View::of(self.show.bounds(), self.show.is_flat(), aspect());
     }
@@ -138,14 +138,14 @@ impl Window {
         }
     }
 
-    /// Scenes that were opened once open again.
+    /// Opens the scene again; what was opened once can be opened again.
     fn restart(&mut self) {
         if let Ok(show) = show(&self.scene) {
             self.show = show;
         }
     }
 
-    /// Goes to a named scene, paused where this one is.
+    /// Opens a named scene; it is paused if this one is.
     fn go(&mut self, stage: Stage) {
         self.next = None;
         if let Ok(opened) = Self::open(stage.name(), None, self.toggles.clone()) {
@@ -154,11 +154,12 @@ impl Window {
         }
     }
 
-    /// Looks around or takes hold; where the hand is.
+    /// Orbits or takes hold of a body; returns where the hand is.
     fn mouse(&mut self) -> Option<DVec3> {
         let (at, moved) = (mouse_position_local(), mouse_delta_position());
         let at = [f64::from(at.x), f64::from(-at.y)];
-        // The way that the eye goes: against the mouse, so that the scene goes with it. macroquad gives last minus now.
+        // The eye moves against the mouse, so that the scene follows it. macroquad returns the last position minus the
+        // present one.
         let [x, y] = [f64::from(moved.x), f64::from(-moved.y)];
         if is_mouse_button_released(MouseButton::Left) {
             self.show.release();
@@ -203,16 +204,16 @@ impl Window {
     }
 }
 
-/// Whether a picture can be written: macroquad would panic.
+/// Checks that a picture can be written, since macroquad would panic.
 ///
 /// # Errors
-/// What the file system says.
+/// Those of the file system.
 pub(crate) fn check(file: &Path) -> Result<(), String> {
     let is_new = !file.exists();
     let opened = OpenOptions::new().append(true).create(true).open(file);
     opened.map_err(|error| format!("{}: {error}", file.display()))?;
     if is_new {
-        // Nothing is left behind where no window opens.
+        // Leaves no file behind in case no window opens.
         std::fs::remove_file(file).map_err(|error| format!("{}: {error}", file.display()))?;
     }
     Ok(())

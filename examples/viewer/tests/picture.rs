@@ -1,4 +1,4 @@
-//! Pictures under a virtual display, where there is one: `xvfb-run`, and a driver for OpenGL.
+//! Takes pictures under a virtual display, where there is one: needs `xvfb-run` and a driver for OpenGL.
 
 use macroquad::texture::Image;
 use std::collections::BTreeSet;
@@ -7,19 +7,19 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// What the viewer says where no window can be opened.
+/// The viewer's exit code where no window can be opened.
 const NO_WINDOW: i32 = 3;
 
 fn viewer() -> &'static str {
     env!("CARGO_BIN_EXE_asunder-viewer")
 }
 
-/// Not by `println`, which is swallowed where a test passes: who reads nothing believes that a picture was made.
+/// Not with `println`, which is swallowed if the test passes: silence would suggest that a picture was made.
 fn say(what: &str) {
     let _ = writeln!(std::io::stderr(), "{what}");
 }
 
-/// Makes a picture; nothing where the system has no virtual display.
+/// Takes a picture; `None` where the system has no virtual display.
 fn shoot(scene: &[&str], file: &Path) -> Option<Output> {
     let mut command = Command::new("xvfb-run");
     command.arg("-a").arg(viewer()).args(scene).arg("--shot").arg(file);
@@ -35,7 +35,7 @@ fn shoot(scene: &[&str], file: &Path) -> Option<Output> {
     Some(output)
 }
 
-/// The colours of a picture of a scene, but for what the text may cover.
+/// The colours in the picture of a scene, except where the text may be.
 fn colors(scene: &[&str], name: &str) -> Result<Option<BTreeSet<[u8; 4]>>, Box<dyn Error>> {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_file(&file);
@@ -52,7 +52,7 @@ fn colors(scene: &[&str], name: &str) -> Result<Option<BTreeSet<[u8; 4]>>, Box<d
 fn a_scene_in_space_is_drawn() -> Result<(), Box<dyn Error>> {
     let scene = ["--scene", "stack", "--frame", "30", "--flip", "text"];
     let Some(colors) = colors(&scene, "stack.png")? else { return Ok(()) };
-    // The sky, the floor's top, two sides of boxes in twenty tones.
+    // The sky, the floor's top, and two sides of boxes in twenty tones.
     assert!(colors.len() > 20, "{} colours", colors.len());
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Bars of parts, in groups, against a line that stands for the peer.
+//! Stacked bars, in groups, against a line that stands for the peer.
 
 use super::Title;
 use super::groups::{Group, height, rows, widest};
@@ -10,24 +10,24 @@ use plotters::style::RGBColor;
 /// One bar.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bar {
-    /// Its name at the left.
+    /// Its name, on the left.
     pub name: String,
     /// The colour of its name.
     pub color: RGBColor,
-    /// Lengths of its parts, in the same order for every bar.
+    /// The lengths of its parts, in the same order for every bar.
     pub parts: Vec<f64>,
-    /// Quartiles of the whole.
+    /// The quartiles of the whole.
     pub whisker: (f64, f64),
-    /// What is written at its end.
+    /// The text at its end.
     pub label: String,
 }
 
 const TOP: f64 = 88.0;
 const ROW: f64 = 17.0;
-/// Bars end here, whatever they stand for: their label says how much that is.
+/// Longer bars are cut off here; the label has the value.
 const LONGEST: f64 = 4.0;
 
-/// Draws the groups; all lengths are parts of the line at 1, which the caption names. Parts have names and colours.
+/// Draws the groups. All lengths are relative to the line at 1, which the caption names. Parts have names and colours.
 pub fn bars(title: &Title, caption: &str, parts: &[(&str, RGBColor)], groups: &[Group<Bar>]) -> String {
     let left = 20.0 + widest(groups, |bar| &bar.name);
     let label = 8.0 + widest(groups, |bar| &bar.label);

@@ -1,4 +1,4 @@
-//! Curves over sizes, both axes logarithmic, each named at its end.
+//! Curves over sizes, with both axes logarithmic, and each curve's name at its end.
 
 use super::Title;
 use super::labels::apart;
@@ -12,11 +12,11 @@ use crate::report::sheet::{Hang, Sheet, TEXT, WIDTH, draw, width_of};
 /// One curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// How it looks.
+    /// Its look.
     pub look: Look,
-    /// Sizes, and the time there in nanoseconds; in order of size.
+    /// Sizes, and the time at each in nanoseconds; in order of size.
     pub points: Vec<(f64, Spread)>,
-    /// A bound, not a measurement: dashed, without points.
+    /// Whether it is a bound and not a measurement: dashed, without points.
     pub is_bound: bool,
 }
 
@@ -25,7 +25,7 @@ const LEFT: f64 = 58.0;
 const TOP: f64 = 54.0;
 const BOTTOM: f64 = HEIGHT - 50.0;
 
-/// Draws curves of time over sizes; the sizes that are labelled are those given.
+/// Draws curves of time over sizes; the given sizes are labelled.
 pub fn curves(title: &Title, caption: &str, sizes: &[u64], curves: &[Curve]) -> String {
     let names = curves.iter().map(|curve| width_of(&curve.look.name, TEXT));
     let right = WIDTH - 14.0 - names.fold(0.0, f64::max);
@@ -56,7 +56,7 @@ pub fn curves(title: &Title, caption: &str, sizes: &[u64], curves: &[Curve]) -> 
     })
 }
 
-/// A logarithmic scale from the least to the greatest value.
+/// A logarithmic scale from the smallest to the largest value.
 struct Scale {
     low: f64,
     high: f64,
@@ -87,7 +87,7 @@ fn backdrop(sheet: &mut Sheet, caption: &str, sizes: &[u64], (x, y, right): (&Sc
         }
         sheet.text(&round(value), (LEFT - 5.0, y.at(value)), Hang::End, (INK, small));
     }
-    // From the greatest down: both ends should be named, and the upper one is the one that is asked for.
+    // From the largest down: both ends should be labelled, and the upper one matters more.
     let mut free = f64::INFINITY;
     for &value in sizes.iter().rev() {
         let (place, name) = (x.at(value as f64), size(value));

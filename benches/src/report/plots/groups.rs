@@ -15,18 +15,18 @@ pub struct Group<R> {
 /// The height of a heading.
 const HEADING: f64 = 19.0;
 
-/// How wide the widest of some texts is, one a row.
+/// The width of the widest text, one text per row.
 pub(super) fn widest<'a, R, T: AsRef<str>>(groups: &'a [Group<R>], text: impl Fn(&'a R) -> T) -> f64 {
     let rows = groups.iter().flat_map(|group| &group.rows);
     rows.map(|row| width_of(text(row).as_ref(), TEXT)).fold(0.0, f64::max)
 }
 
-/// The height of all groups, their rows so high.
+/// The height of all groups, with rows of the given height.
 pub(super) fn height<R>(groups: &[Group<R>], row: f64) -> f64 {
     groups.iter().map(|group| HEADING + row * group.rows.len() as f64).sum()
 }
 
-/// Draws headings from a height down, and hands over every row with its upper edge.
+/// Draws headings from a height down, and calls `draw` for every row with its upper edge.
 pub(super) fn rows<R>(
     sheet: &mut Sheet,
     groups: &[Group<R>],

@@ -1,4 +1,4 @@
-//! A field of cells, a row a method: the darker, the more.
+//! A field of cells, one row per method: the darker, the more.
 
 use super::Title;
 use super::scatter::dark;
@@ -7,19 +7,19 @@ use crate::report::palette::{INK, Look, PALE};
 use crate::report::sheet::{Hang, TEXT, WIDTH, draw, width_of};
 use plotters::style::RGBColor;
 
-/// One row: a share in 0 to 1 for every column that has any.
+/// One row: for every column a share from 0 to 1, if there is one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Whose row it is.
+    /// The look of its method.
     pub look: Look,
-    /// Shares; nothing where there were no cases.
+    /// Shares; `None` where there were no cases.
     pub shares: Vec<Option<f64>>,
 }
 
 const TOP: f64 = 58.0;
 const ROW: f64 = 27.0;
 
-/// Draws the field, under column names, with what the columns are below.
+/// Draws the field, with column names above and a caption of the columns below.
 pub fn heat(title: &Title, caption: &str, columns: &[String], rows: &[Row]) -> String {
     let left = 14.0 + rows.iter().map(|row| width_of(&row.look.name, TEXT)).fold(0.0, f64::max);
     let bottom = TOP + ROW * rows.len() as f64;
@@ -46,7 +46,7 @@ pub fn heat(title: &Title, caption: &str, columns: &[String], rows: &[Row]) -> S
     })
 }
 
-/// Per cent, as few letters as will do: none of them is a zero only where there were none.
+/// A percentage in as few characters as possible: only an exact zero is shown as 0.
 fn percent(share: f64) -> String {
     match share * 100.0 {
         0.0 => "0".to_string(),
@@ -57,13 +57,13 @@ fn percent(share: f64) -> String {
     }
 }
 
-/// White-green for none at all; then, by the logarithm of the share, from pale to dark.
+/// Greenish white for zero; above it, from pale to dark by the logarithm of the share.
 fn shade(share: f64) -> RGBColor {
     if share == 0.0 {
         return RGBColor(230, 242, 230);
     }
     let part = (1.0 + libm::log10(share.clamp(1e-4, 1.0)) / 4.0).clamp(0.0, 1.0);
-    // Squared: most of the way is kept for the shares that matter, and letters stay legible on the rest.
+    // Squared, so that most of the range is left for the shares that matter, and text stays legible on the others.
     let part = part * part;
     let [pale, deep] = [[254.0, 228.0, 190.0], [140.0, 20.0, 0.0]];
     let mix = |i: usize| (pale[i] + part * (deep[i] - pale[i])) as u8;

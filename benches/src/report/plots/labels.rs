@@ -1,12 +1,12 @@
-//! Labels beside points: each at the first free place around its own.
+//! Labels next to points: each at the first free place around its point.
 
 use crate::report::sheet::{TEXT, width_of};
 
-/// A rectangle on the sheet: least and greatest corner.
+/// A rectangle on the sheet: its lower and upper corner.
 pub type Rectangle = [(f64, f64); 2];
 
-/// Places for labels of some lines each, at points, within a frame: the least corner of each label. No label lies on
-/// another, on a point or outside the frame, as long as there is room anywhere near; nor, if it can, on a line.
+/// Places for labels at points, within a frame: the lower corner of each label. As long as there is room nearby, no
+/// label lies on another one, on a point or outside the frame; and, where possible, none on a line.
 ///
 /// ```
 /// use asunder_benches::report::plots::labels::place;
@@ -42,7 +42,7 @@ fn size_of(text: &str) -> (f64, f64) {
     (width_of(text, TEXT), TEXT + 2.0)
 }
 
-/// Where a label may hang, the best first: right, left, above, below, and the same further out.
+/// Candidate places of a label, the best first: right, left, above, below, and the same further out.
 fn around((x, y): (f64, f64), (width, height): (f64, f64)) -> Vec<(f64, f64)> {
     let mut places = Vec::new();
     for ring in 0..7 {
@@ -64,14 +64,14 @@ fn around((x, y): (f64, f64), (width, height): (f64, f64)) -> Vec<(f64, f64)> {
     places
 }
 
-/// The area that two rectangles share.
+/// The area shared by two rectangles.
 fn shared(a: &Rectangle, b: &Rectangle) -> f64 {
     let width = a[1].0.min(b[1].0) - a[0].0.max(b[0].0);
     let height = a[1].1.min(b[1].1) - a[0].1.max(b[0].1);
     width.max(0.0) * height.max(0.0)
 }
 
-/// Moves heights apart until no two are nearer than `least`, in their order, within two ends.
+/// Moves heights apart until no two are nearer than `least`; keeps their order, and stays within two ends.
 ///
 /// ```
 /// use asunder_benches::report::plots::labels::apart;

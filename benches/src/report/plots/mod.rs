@@ -1,4 +1,4 @@
-//! Kinds of plots. None of them knows where its figures come from.
+//! Kinds of plots. They do not depend on where their figures come from.
 
 pub mod bars;
 pub mod curves;
@@ -8,10 +8,10 @@ pub mod labels;
 pub mod scatter;
 pub mod strips;
 
-/// What stands above every plot.
+/// The title above a plot.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Title {
-    /// What the plot answers.
+    /// The question that the plot answers.
     pub question: String,
     /// How to read it.
     pub reading: String,
@@ -23,7 +23,7 @@ impl Title {
         Self { question: question.into(), reading: reading.into() }
     }
 
-    /// The lines that fit the width.
+    /// The lines, which fit the width.
     fn lines(&self) -> [&str; 2] {
         [&self.question, &self.reading]
     }

@@ -1,5 +1,4 @@
-//! Time against error, both logarithmic: a point a method, the front of those whom nobody beats, and a band for no
-//! error at all.
+//! Time against error, both logarithmic: one point per method, the Pareto front, and a band for no error at all.
 
 use super::Title;
 use super::labels::{Rectangle, place};
@@ -14,26 +13,26 @@ use plotters::style::RGBColor;
 /// One method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// How it looks.
+    /// Its look.
     pub look: Look,
-    /// Its label, where that is more than its name.
+    /// Its label, if it is more than its name.
     pub label: String,
-    /// Where it stands across.
+    /// Its value on the horizontal axis.
     pub across: f64,
-    /// How far it reaches from there.
+    /// Where its horizontal whisker ends.
     pub reach: f64,
     /// Its time, in nanoseconds.
     pub ns: Spread,
-    /// It answers the same question as the others: only such are held against each other.
+    /// Whether it answers the same question as the others: only such methods are compared.
     pub is_ranked: bool,
 }
 
-/// What is drawn across.
+/// The horizontal axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Across {
-    /// What the axis counts.
+    /// The caption.
     pub caption: String,
-    /// What zero is called.
+    /// The label of zero.
     pub zero: String,
 }
 
@@ -45,7 +44,7 @@ const BOTTOM: f64 = HEIGHT - 52.0;
 const BAND: RGBColor = RGBColor(236, 245, 236);
 const FRONT: RGBColor = RGBColor(150, 150, 150);
 
-/// Draws the points. Whoever has no finite error is at the right edge, and its label says so.
+/// Draws the points. A method without a finite error is at the right edge, and its label says so.
 pub fn scatter(title: &Title, across: &Across, points: &[Point]) -> String {
     let ends = |pick: fn(&Point) -> [f64; 2]| -> Vec<f64> { points.iter().flat_map(pick).collect() };
     let x = Axis::new(&ends(|point| [point.across, point.reach]), (LEFT, RIGHT)).with_zero(58.0);
@@ -78,7 +77,7 @@ pub fn scatter(title: &Title, across: &Across, points: &[Point]) -> String {
     })
 }
 
-/// A colour dark enough to read letters in.
+/// The colour darkened as far as text needs.
 pub(super) fn dark(RGBColor(r, g, b): RGBColor) -> RGBColor {
     let light = 0.3 * f64::from(r) + 0.59 * f64::from(g) + 0.11 * f64::from(b);
     let factor = (95.0 / light.max(1.0)).min(1.0);
@@ -111,7 +110,7 @@ fn backdrop(sheet: &mut Sheet, across: &Across, (x, y): (&Axis, &Axis)) {
     sheet.text(&across.caption, (0.5 * (LEFT + RIGHT), BOTTOM + 32.0), Hang::Middle, (PALE, TEXT));
 }
 
-/// Steps from one method that nobody beats to the next: nothing was measured below and left of them.
+/// The front as steps from one method to the next: nothing was measured below and left of them.
 fn front(points: &[Point], (x, y): (&Axis, &Axis)) -> Vec<(f64, f64)> {
     let value = |point: &Point| if point.is_ranked { point.across } else { f64::NAN };
     let values: Vec<(f64, f64)> = points.iter().map(|point| (value(point), point.ns.median)).collect();
@@ -127,7 +126,7 @@ fn front(points: &[Point], (x, y): (&Axis, &Axis)) -> Vec<(f64, f64)> {
     steps
 }
 
-/// What labels should not lie on: the front, and how far errors reach.
+/// What labels should avoid: the front, and the whiskers of errors.
 fn drawn_lines(points: &[Point], steps: &[(f64, f64)], (x, y): (&Axis, &Axis)) -> Vec<Rectangle> {
     let around = |a: (f64, f64), b: (f64, f64)| {
         [(a.0.min(b.0) - 2.0, a.1.min(b.1) - 2.0), (a.0.max(b.0) + 2.0, a.1.max(b.1) + 2.0)]
@@ -143,7 +142,7 @@ fn drawn_lines(points: &[Point], steps: &[(f64, f64)], (x, y): (&Axis, &Axis)) -
     steps.windows(2).map(|ends| around(ends[0], ends[1])).chain(reach).chain(noise).collect()
 }
 
-/// Quartiles of time up and down; to the right, as far as the error reaches.
+/// A vertical whisker for the quartiles of time; a horizontal one as far as the error reaches.
 fn whiskers(sheet: &mut Sheet, point: &Point, (x, y): (&Axis, &Axis)) {
     let (place, height) = (x.at(point.across), y.at(point.ns.median));
     let (color, ns) = (point.look.color, point.ns);

@@ -1,4 +1,4 @@
-//! Rows in groups, a value each on one logarithmic axis, with how far it goes: names stand beside their rows.
+//! Rows in groups, each with a value and its range on one common axis, and with its name.
 
 use super::Title;
 use super::groups::{Group, height, rows, widest};
@@ -9,10 +9,10 @@ use crate::report::palette::{GRID, INK, Look, PALE};
 use crate::report::sheet::{Hang, TEXT, WIDTH, draw};
 use plotters::style::RGBColor;
 
-/// How values lie along the axis.
+/// How values are mapped to the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// By their logarithms, zero in a band of its own.
+    /// By their logarithms, with zero in a band of its own.
     Logarithmic,
     /// From zero up.
     Linear,
@@ -21,22 +21,22 @@ pub enum Scale {
 /// One row of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strip {
-    /// Whose row it is.
+    /// The look of its method.
     pub look: Look,
-    /// Where the mark stands.
+    /// The position of the mark.
     pub value: f64,
-    /// What the thick line spans.
+    /// The range of the thick line.
     pub inner: (f64, f64),
-    /// Where the thin line ends.
+    /// The end of the thin line.
     pub end: f64,
-    /// The mark is hollow.
+    /// Whether the mark is hollow.
     pub is_noisy: bool,
 }
 
 const TOP: f64 = 50.0;
 const ROW: f64 = 16.0;
 
-/// Draws the groups, one below the other; the figure beside a row is its value, and its end where that is another.
+/// Draws the groups, one below the other; next to a row are its value, and its end if that differs.
 pub fn strips(title: &Title, caption: &str, scale: Scale, groups: &[Group<Strip>]) -> String {
     let all = || groups.iter().flat_map(|group| &group.rows);
     let left = 22.0 + widest(groups, |strip| &strip.look.name);

@@ -1,4 +1,4 @@
-//! All pairs of boxes: time over sizes, a plot a scene; threads; crossovers.
+//! All pairs of boxes: time over sizes, one plot per scene; threads; crossovers.
 
 use super::{Draft, Figure, marked, remarks};
 use crate::broad::rows::BroadRow;
@@ -17,7 +17,7 @@ pub(super) fn draft(rows: &[BroadRow], frames: &[FrameRow]) -> Draft {
     let scenes = distinct(rows, |row| row.scene.clone());
     let mut figures: Vec<Figure> = scenes.iter().map(|scene| over_sizes(scene, rows)).collect();
     if !figures.is_empty() {
-        // Those with the most rows last, beside each other.
+        // The plots with the most rows last, next to each other.
         figures.extend(false_pairs(frames));
         figures.extend(threads(&scenes, rows));
         figures.extend(compared(&scenes, rows));
@@ -40,7 +40,7 @@ pub(super) fn draft(rows: &[BroadRow], frames: &[FrameRow]) -> Draft {
     }
 }
 
-/// What a second thread brings, where it was measured.
+/// The gain from a second thread, where it was measured.
 fn threads(scenes: &[String], rows: &[BroadRow]) -> Option<Figure> {
     let question = "Do two threads pay in the broad phase?".to_string();
     let title = Title::new(question.clone(), "One thread's time over two's, by the clock on the wall.");
@@ -49,7 +49,7 @@ fn threads(scenes: &[String], rows: &[BroadRow]) -> Option<Figure> {
     (!groups.is_empty()).then(|| Figure { file: "broad-threads".to_string(), question, svg })
 }
 
-/// How many pairs of boxes the sweep compares for one that it hands over, where that was counted.
+/// How many pairs of boxes the sweep compares for each pair that it reports, where that was counted.
 fn compared(scenes: &[String], rows: &[BroadRow]) -> Option<Figure> {
     let group = |scene: &String| {
         let strip = |boxes| {
@@ -73,7 +73,7 @@ fn compared_a_pair(scene: &str, boxes: u64, rows: &[BroadRow]) -> Option<f64> {
     here.next().map(|row| row.compared as f64 / row.pairs.max(1) as f64)
 }
 
-/// How many pairs are handed over for nothing, in scenes of shapes.
+/// The share of candidate pairs without contact, in scenes of shapes.
 fn false_pairs(frames: &[FrameRow]) -> Option<Figure> {
     let one_thread: Vec<&FrameRow> = frames.iter().filter(|row| row.threads == 1).collect();
     let strip = |row: &&FrameRow| {
@@ -100,7 +100,7 @@ fn sizes_of(scene: &str, rows: &[BroadRow]) -> Vec<u64> {
     sizes
 }
 
-/// Time a box of the best way of each, at every size.
+/// Time per box of a method's best variant, at every size.
 fn curve(scene: &str, method: &str, rows: &[BroadRow]) -> Vec<(f64, Spread)> {
     let at = |boxes: u64| {
         let row = best(rows, (scene, boxes, method), "thread", 1).filter(|row| !row.is_cut)?;
@@ -183,7 +183,7 @@ fn findings(scenes: &[String], rows: &[BroadRow]) -> Vec<String> {
     said
 }
 
-/// The least size of each scene from which on a second thread saves time beyond the noise.
+/// For each scene, the smallest size from which on a second thread saves time beyond the noise.
 fn pays_from(scenes: &[String], rows: &[BroadRow]) -> Option<String> {
     let mut said = Vec::new();
     for scene in scenes {
@@ -240,7 +240,7 @@ fn table(scenes: &[String], rows: &[BroadRow]) -> Table {
     table
 }
 
-/// A time, or how long it took until it was broken off.
+/// A time, or the time after which it was aborted.
 fn time(row: &BroadRow) -> String {
     if row.is_cut {
         return format!("broken off after {}", duration(row.ns_low));

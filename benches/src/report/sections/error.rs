@@ -1,4 +1,4 @@
-//! Time of every method against its error, a plot a family of pairs.
+//! Time of every method against its error, one plot per family of pairs.
 
 use super::{Draft, Figure, marked};
 use crate::clock::Spread;
@@ -12,7 +12,7 @@ use crate::report::table::Table;
 
 pub(super) fn draft(rows: &[ErrorRow]) -> Draft {
     let mut figures = Vec::new();
-    // Space first: it is what most come for.
+    // Space first: most readers come for it.
     for dim in ["3d", "2d"] {
         let here: Vec<&ErrorRow> = rows.iter().filter(|row| row.dimension == dim).collect();
         for group in distinct(&here, |row| row.group.clone()) {
@@ -55,7 +55,7 @@ fn point(row: &ErrorRow, (across, reach): (f64, f64), label: String) -> Point {
     Point { look: look(&row.method), label, across, reach, ns, is_ranked: has_depth(&row.method) }
 }
 
-/// Whether a method says how deep, or only yes or no.
+/// Whether a method gives a depth, or only yes or no.
 fn has_depth(method: &str) -> bool {
     method != "fast"
 }
@@ -74,7 +74,7 @@ fn with_wrong(row: &ErrorRow) -> String {
     label
 }
 
-/// All families of a dimension together: each counts the same.
+/// All families of a dimension together, with equal weights.
 fn of_wrong(dim: &str, rows: &[&ErrorRow]) -> Figure {
     let question = format!("{}, all families: how often a wrong yes or no?", dimension(dim));
     let title = Title::new(question.clone(), "Means over families; lower left is better.");

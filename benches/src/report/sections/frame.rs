@@ -1,4 +1,4 @@
-//! Whole frames: where their time goes, what they hold.
+//! Whole frames: where their time goes, and what memory they hold.
 
 use super::{Draft, Figure, marked, remarks};
 use crate::report::losses::{distinct, of_frame};
@@ -11,7 +11,7 @@ use crate::report::plots::strips::{Scale, Strip, strips};
 use crate::report::table::Table;
 use crate::world::rows::FrameRow;
 
-/// The stages, in their order, and the rest of a frame.
+/// The stages, in order, and the rest of a frame.
 const NAMES: [&str; 6] = ["boxes", "pairs", "contacts", "old and new", "events", "poses in, points out"];
 
 pub(super) fn draft(rows: &[FrameRow]) -> Draft {
@@ -33,7 +33,7 @@ pub(super) fn draft(rows: &[FrameRow]) -> Draft {
     }
 }
 
-/// Scenes that the peer has too.
+/// Scenes that the peer can play.
 fn stages(rows: &[FrameRow]) -> Option<Figure> {
     let question = "Where does a frame's time go?".to_string();
     let title =
@@ -43,7 +43,7 @@ fn stages(rows: &[FrameRow]) -> Option<Figure> {
     (!groups.is_empty()).then(|| Figure { file: "frame-stages".to_string(), question, svg })
 }
 
-/// Scenes that it has not: those of the plane.
+/// Scenes that it cannot play: those in the plane.
 fn in_plane(rows: &[FrameRow]) -> Option<Figure> {
     let question = "In the plane: where does a frame's time go?".to_string();
     let title = Title::new(question.clone(), "In units of asunder's own frame on one thread.");
@@ -67,7 +67,7 @@ fn groups(rows: &[FrameRow], unit: impl Fn(&[&FrameRow]) -> Option<f64>) -> Vec<
     distinct(rows, |row| row.scene.clone()).iter().filter_map(group).collect()
 }
 
-/// What the worlds hold, where somebody counted.
+/// The memory that worlds hold, where it was counted.
 fn memory(rows: &[FrameRow]) -> Option<Figure> {
     let counted: Vec<&FrameRow> = rows.iter().filter(|row| row.bytes_per_body >= 0.0).collect();
     let strip = |row: &&FrameRow| {
@@ -87,7 +87,7 @@ fn memory(rows: &[FrameRow]) -> Option<Figure> {
     (!groups.is_empty()).then(|| Figure { file: "frame-memory".to_string(), question, svg })
 }
 
-/// How often a steady frame asks the allocator.
+/// How often a steady frame allocates.
 fn allocations(rows: &[FrameRow]) -> Vec<String> {
     let counted: Vec<&FrameRow> = rows.iter().filter(|row| row.allocations >= 0.0).collect();
     let of = |method: String| {

@@ -1,4 +1,4 @@
-//! Wrong answers by the width of the gap, a field a dimension and side.
+//! Wrong answers by the size of the gap, one field per dimension and side.
 
 use super::{Draft, Figure};
 use crate::error::GapRow;
@@ -9,9 +9,9 @@ use crate::report::plots::Title;
 use crate::report::plots::heat::{Row, heat};
 use crate::report::table::Table;
 
-/// The decade of pairs that touch exactly.
+/// The decade of exact touching.
 const TOUCH: i32 = -99;
-/// Decades that a field shows one by one; narrower gaps share a column.
+/// The decades that a field shows one by one; narrower gaps share a column.
 const NARROWEST: i32 = -13;
 const WIDEST: i32 = -1;
 

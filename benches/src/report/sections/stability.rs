@@ -1,4 +1,4 @@
-//! How steady answers are, a plot a measure.
+//! How stable answers are, one plot per measure.
 
 use super::{Draft, Figure};
 use crate::error::StabilityRow;
@@ -26,7 +26,7 @@ pub(super) fn draft(rows: &[StabilityRow]) -> Draft {
     }
 }
 
-/// What a measure asks.
+/// The question of a measure.
 fn question(measure: &str) -> String {
     match measure {
         "jitter-1ulp" => "How far does depth jump, by 1 ulp of a pose?".to_string(),

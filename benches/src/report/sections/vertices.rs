@@ -1,4 +1,4 @@
-//! Time against vertices, a plot a question.
+//! Time against vertices, one plot per query.
 
 use super::{Draft, Figure, marked};
 use crate::clock::Spread;

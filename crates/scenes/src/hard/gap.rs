@@ -1,8 +1,8 @@
-//! Gaps: how far from touching, and which side of it.
+//! Gaps: how far a pair is from touching, on either side of it.
 
 use crate::random::Random;
 
-/// The decades of [`gap`] by level, the last of them exact touching as far as positions can say it.
+/// The levels of [`gap`]; the last is exact touching, as far as positions can represent it.
 pub(super) const GAPS: u32 = 8;
 
 /// What a level of [`gap`] means.
@@ -11,7 +11,7 @@ pub(super) const GAP_KNOB: &str =
 
 const LARGEST: [f64; GAPS as usize - 1] = [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15];
 
-/// A gap, or below zero how far sunk, as a share of size. At the last level nothing.
+/// A gap, or if negative a depth, as a share of the pair's size; zero at the last level.
 pub(super) fn gap(level: u32, random: &mut Random) -> f64 {
     match LARGEST.get(level as usize) {
         Some(&largest) => largest * random.log_range(0.01, 1.0) * sign(random),
@@ -19,7 +19,7 @@ pub(super) fn gap(level: u32, random: &mut Random) -> f64 {
     }
 }
 
-/// A gap of any level of [`gap`], for families whose knob is another.
+/// A gap of any level of [`gap`], for families whose level means something else.
 pub(super) fn any_gap(random: &mut Random) -> f64 {
     let level = random.below(GAPS as usize) as u32;
     gap(level, random)
@@ -30,13 +30,13 @@ pub(super) fn sign(random: &mut Random) -> f64 {
     if random.unit() < 0.5 { -1.0 } else { 1.0 }
 }
 
-/// How many ulps, of either sign or none, at most 2^level.
+/// A random number of ulps, from -2^level to 2^level.
 pub(super) fn ulps(level: u32, random: &mut Random) -> i64 {
     let most = 1_usize << level.min(40);
     random.below(2 * most + 1) as i64 - most as i64
 }
 
-/// `value` moved by so many steps of f64 away from zero, or towards it.
+/// `value` moved by so many f64 steps away from zero or, if negative, towards it.
 pub(super) fn stepped(value: f64, steps: i64) -> f64 {
     let bits = value.abs().to_bits().saturating_add_signed(steps);
     let moved = f64::from_bits(bits).copysign(value);

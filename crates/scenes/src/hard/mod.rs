@@ -1,11 +1,11 @@
-//! Hard families of posed pairs: where collision tests go wrong, each with a knob for how hard.
+//! Hard families of posed pairs: cases in which collision tests go wrong, each with levels of difficulty.
 //!
-//! Most pairs are built near touching: a point of B is put a chosen gap beyond a point of A along a direction in which
-//! both are furthest, so that the true separation is that gap up to the rounding of positions. Whoever holds the
-//! families against an oracle learns the exact answer from it; nothing here claims to know it.
+//! Most pairs are built near touching: along a chosen direction, B's support point is put a chosen gap beyond A's
+//! support point, so that the true separation is that gap up to the rounding of positions. The exact answer is left to
+//! an oracle; nothing here claims to know it.
 //!
-//! A pair is a function of its family, level and seed alone, bit for bit. No generator fails: where a shape is refused
-//! (none should be) a plain one takes its place.
+//! A pair is a function of its family, level and seed alone, bit for bit. No generator fails: where a constructor
+//! rejects a shape (it should reject none), a plain shape takes its place.
 //!
 //! ```
 //! use asunder_scenes::hard::{FAMILIES2, FAMILIES3, Family3};
@@ -83,12 +83,12 @@ impl Family3 {
         FAMILIES3.iter().find(|family| family.name == name)
     }
 
-    /// The pair of a level and a seed. Levels beyond the last are the last. Cost: that of building two shapes.
+    /// The pair of a level and a seed. A level beyond the last counts as the last. Cost: that of building two shapes.
     pub fn pair(&self, level: u32, seed: u64) -> PosedPair3 {
         self.draft(level, seed).pair
     }
 
-    /// `count` pairs, one level after the other and around again, each with a seed of its own.
+    /// `count` pairs, cycling through the levels, each with a seed of its own.
     pub fn pairs(&self, count: usize, seed: u64) -> Vec<PosedPair3> {
         (0..count).map(|i| self.pair(level_of(i, self.levels), mixed(seed, i as u64))).collect()
     }
@@ -107,12 +107,12 @@ impl Family2 {
         FAMILIES2.iter().find(|family| family.name == name)
     }
 
-    /// The pair of a level and a seed. Levels beyond the last are the last. Cost: that of building two shapes.
+    /// The pair of a level and a seed. A level beyond the last counts as the last. Cost: that of building two shapes.
     pub fn pair(&self, level: u32, seed: u64) -> PosedPair2 {
         self.draft(level, seed).pair
     }
 
-    /// `count` pairs, one level after the other and around again, each with a seed of its own.
+    /// `count` pairs, cycling through the levels, each with a seed of its own.
     pub fn pairs(&self, count: usize, seed: u64) -> Vec<PosedPair2> {
         (0..count).map(|i| self.pair(level_of(i, self.levels), mixed(seed, i as u64))).collect()
     }
@@ -141,13 +141,13 @@ fn level_of(index: usize, levels: u32) -> u32 {
     (index % levels.max(1) as usize) as u32
 }
 
-/// Families and levels that are given one seed draw from streams that have nothing to do with each other.
+/// A seed such that families and levels with the same seed draw from unrelated streams.
 fn seed_of(name: &str, level: u32, seed: u64) -> u64 {
     let of_name = name.bytes().fold(0, |known, byte| mixed(known, u64::from(byte)));
     mixed(mixed(of_name, u64::from(level)), seed)
 }
 
-/// Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014: the finaliser of their SplitMix.
+/// The finaliser of SplitMix (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
 fn mixed(one: u64, other: u64) -> u64 {
     let mut bits =
         one.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(other).wrapping_add(0x9e37_79b9_7f4a_7c15);

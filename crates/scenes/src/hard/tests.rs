@@ -1,4 +1,4 @@
-//! What every family promises, held against the stored shapes and poses and not against its maker's word.
+//! What every family promises, checked on the stored shapes and poses, without trust in the generator.
 
 use super::*;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
@@ -6,13 +6,13 @@ use glam::{DVec2, DVec3};
 
 const SEEDS: u64 = 12;
 
-/// Families in which no claim is made, or not of every pair.
+/// Families without claims, or with claims for some of their pairs only.
 const UNCLAIMED: [&str; 6] = ["identical", "deep", "compounds", "random", "half-space", "half-plane"];
 
-/// Convex parts as points of the world and a radius; none for a half-space.
+/// Convex parts as points in the world and a radius; no part for a half-space.
 type Parts = Vec<(Vec<DVec3>, f64)>;
 
-/// What a test asks of a pair in either dimension. Gaps and claims are in metres; points of the plane have z = 0.
+/// What the tests need of a pair, in either dimension. Gaps and claims are in metres; points of the plane have z = 0.
 struct Seen {
     what: String,
     gap: Option<f64>,
@@ -57,7 +57,7 @@ fn parts2(shape: &Shape2, pose: &Pose2) -> Parts {
     }
 }
 
-/// The furthest along an axis; a half-space reaches to its origin's plane.
+/// How far the parts reach along an axis from an origin; a half-space reaches to the plane through its origin.
 fn reach(parts: &Parts, origin: DVec3, axis: DVec3) -> f64 {
     let of = |(points, radius): &(Vec<DVec3>, f64)| {
         points.iter().map(|p| (*p - origin).dot(axis)).fold(f64::NEG_INFINITY, f64::max) + radius
@@ -68,7 +68,7 @@ fn reach(parts: &Parts, origin: DVec3, axis: DVec3) -> f64 {
 fn seen(what: String, ends: [(Parts, DVec3, f32); 2], claim: Option<(DVec3, f64)>) -> Seen {
     let [(parts_a, at, radius_a), (parts_b, goal, radius_b)] = ends;
     let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
-    // From each body's own position, so that nothing is lost far from the origin.
+    // From each body's own position, so that no precision is lost far from the origin.
     let gap = claim
         .map(|(axis, _)| (goal - at).dot(axis) - reach(&parts_b, goal, -axis) - reach(&parts_a, at, axis));
     Seen {
@@ -81,7 +81,7 @@ fn seen(what: String, ends: [(Parts, DVec3, f32); 2], claim: Option<(DVec3, f64)
     }
 }
 
-/// Every family in both dimensions, at every level, by several seeds.
+/// Every family in both dimensions, at every level, with several seeds.
 fn everything(check: &mut dyn FnMut(&'static str, Seen)) {
     for family in FAMILIES3 {
         for (level, seed) in (0..family.levels).flat_map(|level| (0..SEEDS).map(move |seed| (level, seed))) {
@@ -111,9 +111,9 @@ fn everything(check: &mut dyn FnMut(&'static str, Seen)) {
     }
 }
 
-/// An upper bound of the distance of two convex parts: that of two points in them. Gilbert, Johnson, Keerthi, "A fast
-/// procedure for computing the distance between complex objects", 1988, until good enough, and with every subset of
-/// the corners tried where they select one.
+/// An upper bound of the distance between two convex parts: the distance between two points in them. By the algorithm
+/// of Gilbert, Johnson and Keerthi ("A fast procedure for computing the distance between complex objects", 1988), until
+/// the bound is good enough; where theirs selects a subset of the corners, this one tries all of them.
 fn distance_at_most(a: &(Vec<DVec3>, f64), b: &(Vec<DVec3>, f64), enough: f64) -> f64 {
     let lowest = |points: &[DVec3], axis: DVec3| {
         *points.iter().min_by(|p, q| p.dot(axis).total_cmp(&q.dot(axis))).unwrap()
@@ -141,7 +141,7 @@ fn distance_at_most(a: &(Vec<DVec3>, f64), b: &(Vec<DVec3>, f64), enough: f64) -
     nearest.length() - a.1 - b.1
 }
 
-/// The point of least norm of the plane through up to four corners, if it lies between them.
+/// The point nearest to the origin in the affine hull of up to four corners, if it lies within their simplex.
 fn nearest_of(corners: &[DVec3]) -> Option<DVec3> {
     let (first, ways): (DVec3, Vec<DVec3>) =
         (corners[0], corners[1..].iter().map(|c| *c - corners[0]).collect());
@@ -167,7 +167,7 @@ fn nearest_of(corners: &[DVec3]) -> Option<DVec3> {
 fn a_claimed_gap_is_the_gap_between_the_stored_shapes() {
     everything(&mut |_, seen| {
         let Some(gap) = seen.gap else { return };
-        // Sums of a few terms, each as large as the size or a position's coordinate, rounded once each.
+        // Sums of a few terms, each as large as the size or a coordinate of a position, and each rounded once.
         let rounding = 32.0 * f64::EPSILON * (seen.size + seen.reach);
         assert!(gap.abs() <= seen.within + rounding, "{}: {gap} beyond {}", seen.what, seen.within);
     });
@@ -179,7 +179,7 @@ fn near_touching_pairs_have_points_that_near() {
         if seen.gap.is_none() || seen.parts.iter().any(Vec::is_empty) {
             return;
         }
-        // Features meet up to the rounding of f32 rotations and vertices: 1e-7 or so, and the iteration has an end.
+        // Features meet up to the rounding of f32 rotations and vertices, 1e-7 or so, and the iteration is limited.
         let enough = seen.within + 1e-6 * seen.size + 4.0 * f64::EPSILON * seen.reach;
         let [a, b] = &seen.parts;
         let found = a
@@ -196,7 +196,7 @@ fn every_family_but_a_few_claims_every_pair_near() {
     everything(&mut |name, seen| {
         let counts = claimed.entry(format!("{} {name}", &seen.what[..2])).or_default();
         counts[usize::from(seen.gap.is_some())] += 1;
-        // Near is within a hundredth of size.
+        // "Near" means within a hundredth of the size.
         assert!(seen.within <= 0.011 * seen.size, "{}: {} of {}", seen.what, seen.within, seen.size);
     });
     for (name, [free, near]) in claimed {
@@ -208,7 +208,7 @@ fn every_family_but_a_few_claims_every_pair_near() {
 
 #[test]
 fn no_shape_was_refused() {
-    // Bricks of a grid may be as plain as what takes the place of a shape that was refused.
+    // Bricks on a grid may happen to equal the shape that replaces a rejected one.
     let on_purpose = ["coincident-faces", "coincident-edges"];
     for family in FAMILIES3.iter().filter(|family| !on_purpose.contains(&family.name)) {
         for (i, pair) in family.pairs(40 * family.levels as usize, 5).iter().enumerate() {
@@ -319,7 +319,7 @@ fn both_sides_of_touching_are_drawn_and_the_last_level_of_a_gap_is_none() {
     }
 }
 
-/// Whether a quaternion is one of whole numbers, none of them a mere unit.
+/// Whether all components of a quaternion are whole numbers, and one of them is not just 0 or 1 in size.
 fn is_whole(rotation: glam::Quat) -> bool {
     rotation.to_array().iter().all(|q| q.fract() == 0.0) && rotation.to_array().iter().any(|q| q.abs() > 1.0)
 }

@@ -1,4 +1,4 @@
-//! From what JSON sees to what a world takes: every number checked, every fault with its path.
+//! Converts a parsed scene file into a level: every number is checked, and every fault has its path.
 
 use super::error::{Fault, LevelError};
 use super::raw::{self, Turn};
@@ -13,7 +13,7 @@ mod volume;
 pub(super) use plane::Plane;
 pub(super) use volume::Volume;
 
-/// The last steps of a path below the body or shape, and what is wrong there.
+/// The end of a path, below the body or shape, and what is wrong there.
 type At = (String, Fault);
 
 /// What differs between a scene in the plane and one in space.
@@ -151,7 +151,7 @@ fn read_points<P: From<[f32; N]>, const N: usize>(points: &[Vec<f64>], kind: &st
     points.iter().enumerate().map(read).collect()
 }
 
-/// As many points as a shape has vertices.
+/// The points as an array, if there are exactly `N`.
 fn exactly_points<P: Copy, const N: usize>(points: &[P]) -> Result<[P; N], Fault> {
     points.try_into().map_err(|_| Fault::Points { expected: N, found: points.len() })
 }
@@ -166,7 +166,7 @@ fn check_sides(found: u64, most: usize) -> Result<(), Fault> {
     if (3..=most).contains(&found) { Ok(()) } else { Err(Fault::Sides { most, found }) }
 }
 
-/// Corners of a regular polygon of radius 1, by `libm`: the same on every platform.
+/// Corners of a regular polygon of radius 1. By `libm`, so that they are the same on every platform.
 fn circle(sides: u64) -> impl Iterator<Item = DVec2> {
     (0..sides).map(move |i| {
         let angle = TAU * i as f64 / sides as f64;
@@ -174,12 +174,12 @@ fn circle(sides: u64) -> impl Iterator<Item = DVec2> {
     })
 }
 
-/// What a shape's constructor said, with the place of the shape.
+/// The result of a shape's constructor, its error with the place of the shape.
 fn made<T, E: Into<Fault>>(step: &str, result: Result<T, E>) -> Result<T, At> {
     result.map_err(|error| at(step)(error.into()))
 }
 
-/// A shape and where it is.
+/// A shape and its pose.
 type Posed<D> = (<D as Dimension>::Pose, <D as Dimension>::Shape);
 
 /// The parts of a compound.

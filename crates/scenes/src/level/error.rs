@@ -7,52 +7,53 @@ use asunder_geometry::{
 };
 use core::fmt;
 
-/// Why a scene file was refused, and where in it the fault is.
+/// Why a scene file is rejected, and where in it the fault is.
 #[derive(Debug)]
 pub enum LevelError {
-    /// The text is no JSON, or a field is unknown, missing or of the wrong type. The message ends with line and column.
+    /// The text is not JSON, or a field is unknown, missing or of the wrong type. The message ends with line and
+    /// column.
     Json(serde_json::Error),
     /// The text is well formed, but says something impossible.
     Content {
-        /// Where, such as `bodies[17].rotation` or `shapes["rock"].points[3]`.
+        /// Where it is, such as `bodies[17].rotation` or `shapes["rock"].points[3]`.
         path: String,
-        /// What.
+        /// What it is.
         fault: Fault,
     },
 }
 
-/// Something impossible that a well-formed scene file says.
+/// Impossible content of a well-formed scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// A scene is in the plane or in space.
+    /// The dimension is neither 2 nor 3.
     Dimension {
         /// What the file asks for.
         found: u64,
     },
-    /// A vector has the wrong count of numbers.
+    /// A vector has the wrong number of components.
     Length {
-        /// As many as there should be.
+        /// How many there should be.
         expected: usize,
-        /// As many as there are.
+        /// How many there are.
         found: usize,
     },
-    /// A shape has another count of points.
+    /// A shape has the wrong number of points.
     Points {
-        /// As many as there should be.
+        /// How many there should be.
         expected: usize,
-        /// As many as there are.
+        /// How many there are.
         found: usize,
     },
     /// A list of numbers where one number belongs, or the other way round.
     Form {
-        /// What belongs there.
+        /// What should be there.
         expected: &'static str,
     },
     /// A shape of the other dimension.
     ForeignShape {
         /// The kind of shape.
         kind: &'static str,
-        /// The only dimension that it has.
+        /// The only dimension in which it exists.
         dimension: u64,
     },
     /// A number that an f32 cannot hold.
@@ -70,7 +71,7 @@ pub enum Fault {
         /// Its length.
         value: f64,
     },
-    /// A count of sides that makes no shape, or too large a one.
+    /// A number of sides that makes no shape, or too large a one.
     Sides {
         /// The most there may be.
         most: u64,
@@ -82,32 +83,32 @@ pub enum Fault {
         /// The name.
         name: String,
     },
-    /// A layer's number beyond 31.
+    /// The number of a layer is above 31.
     UnknownLayer {
         /// The number.
         number: u64,
     },
     /// A fixed body has a velocity.
     FixedMoves,
-    /// The shape's half extents are refused.
+    /// The shape's half extents are invalid.
     Extent(ExtentError),
-    /// The polygon is refused.
+    /// The polygon is invalid.
     Polygon(PolygonError),
-    /// The hull is refused.
+    /// The hull is invalid.
     Hull(HullError),
-    /// The radius is refused.
+    /// The radius is invalid.
     Radius(RadiusError),
-    /// The vertices are refused.
+    /// The vertices are invalid.
     Vertex(VertexError),
-    /// The capsule is refused.
+    /// The capsule is invalid.
     Capsule(CapsuleError),
-    /// The normal is refused.
+    /// The normal is invalid.
     Direction(DirectionError),
-    /// The parts are refused.
+    /// The parts are invalid.
     Compound(CompoundError),
-    /// The outline is refused.
+    /// The outline is invalid.
     Decompose(DecomposeError),
-    /// The pose is refused.
+    /// The pose is invalid.
     Pose(PoseError),
 }
 
@@ -157,7 +158,7 @@ impl fmt::Display for Fault {
     }
 }
 
-// No source: the fault stands in the text already.
+// No source: the message already contains the fault.
 impl core::error::Error for LevelError {}
 
 impl core::error::Error for Fault {}

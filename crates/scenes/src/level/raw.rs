@@ -1,4 +1,4 @@
-//! The scene file as JSON sees it: types and field names are right, the content is not yet looked at.
+//! The scene file as parsed JSON: types and field names are right, the content is not checked yet.
 //!
 //! Vectors are lists of any length here, so that a wrong length is reported with its path in the file.
 
@@ -124,7 +124,7 @@ impl<'de> Deserialize<'de> for Turn {
     }
 }
 
-// By hand: serde's untagged enums report that no variant matched, and not what was wrong.
+// Written by hand, because serde's untagged enums only report that no variant matched, not what was wrong.
 struct TurnVisitor;
 
 impl<'de> Visitor<'de> for TurnVisitor {
@@ -155,7 +155,7 @@ impl<'de> Visitor<'de> for TurnVisitor {
     }
 }
 
-/// An object's entries in the order of the file. A map type would let a later name silently replace an earlier one.
+/// An object's entries in the order of the file. With a map type a later name would silently replace an earlier one.
 fn unique_names<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, Shape)>, D::Error> {
     deserializer.deserialize_map(NamesVisitor)
 }

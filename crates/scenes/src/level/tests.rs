@@ -1,4 +1,4 @@
-//! Scene files that are right, and many that are wrong: each names its fault's place, and none panics.
+//! Scene files that are right, and many that are wrong: each error names the place of the fault, and none panics.
 
 use super::*;
 

@@ -1,11 +1,11 @@
-//! Whether two convex hulls are apart: a rough judge, for sorting samples only.
+//! Whether two convex hulls are apart: a rough test, used only to sort samples.
 
 use glam::DVec3;
 
-/// How many steps are taken before two hulls are called overlapping.
+/// After this many steps two hulls are taken to overlap.
 const STEPS: usize = 200;
 
-/// True only when some axis separates the hulls of the two lists of points. May be false for a tiny gap.
+/// True only if some axis separates the hulls of the two lists of points. May be false for a tiny gap.
 ///
 /// Frank and Wolfe's method with pairwise steps (Lacoste-Julien and Jaggi, "On the global linear convergence of
 /// Frank-Wolfe optimization variants", 2015) on the Minkowski difference: move weight from the worst corner in use to

@@ -1,4 +1,4 @@
-//! Posed pairs of shapes: the sets a narrow phase is measured on.
+//! Posed pairs of shapes: sets to measure a narrow phase on.
 //!
 //! ```
 //! use asunder_scenes::pairs::{FRAMES, PairSet, PlaneKind, SolidKind, frames3, pairs2, pairs3};
@@ -29,7 +29,7 @@ use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 /// Length of the sequences of [`PairSet::Slide`] and [`PairSet::Tumble`], in frames of 1/60 s.
 pub const FRAMES: usize = 60;
 
-/// How many different shapes a set draws from. Few, as in a game; the clones share their data.
+/// How many different shapes a set draws from: few, as in a game. The clones share their data.
 const DISTINCT: usize = 16;
 
 /// Two posed shapes in space.
@@ -82,7 +82,7 @@ pub struct PosedPair2 {
 pub enum SolidKind {
     /// Cuboids.
     Box,
-    /// What level designers draw: wedges and cylinders of twelve sides, as hulls.
+    /// As level designers model them: wedges and cylinders of twelve sides, as hulls.
     Authored,
     /// Hulls of 8 random points on an ellipsoid.
     Hull8,
@@ -94,21 +94,21 @@ pub enum SolidKind {
     Hull128,
     /// Hulls of 64 random points on an ellipsoid.
     Hull64,
-    /// Hulls of 256 random points on an ellipsoid: as many as a hull may have.
+    /// Hulls of 256 random points on an ellipsoid, the most that a hull may have.
     Hull256,
-    /// Cylinders of 128 sides, as hulls: two faces of 128 corners, and all other edges in bundles of parallels.
+    /// Cylinders of 128 sides, as hulls: two faces of 128 corners, and all other edges in bundles of parallel ones.
     Prism256,
-    /// Globes of 16 circles of latitude with 16 corners each: every edge has parallels, and every corner a corner
-    /// opposite.
+    /// Globes of 16 circles of latitude with 16 corners each: every edge has parallel edges, and every corner an
+    /// opposite corner.
     Globe256,
 }
 
 impl SolidKind {
-    /// The families that every question is asked of, in the order in which results are listed.
+    /// The families that every benchmark uses, in the order in which results are listed.
     pub const ALL: [Self; 6] =
         [Self::Box, Self::Authored, Self::Hull8, Self::Hull16, Self::Hull32, Self::Hull128];
 
-    /// Those that show how cost grows with the vertices, in the same order.
+    /// The families that show how cost grows with the number of vertices, in the same order.
     pub const GROWTH: [Self; 5] =
         [Self::Hull64, Self::Hull128, Self::Hull256, Self::Prism256, Self::Globe256];
 
@@ -149,7 +149,7 @@ pub enum PlaneKind {
     Poly8,
     /// Polygons of 64 random points on an ellipse.
     Poly64,
-    /// Polygons of 4096 points around an ellipse, less those that rounding put inside.
+    /// Polygons of 4096 points around an ellipse, without those that rounding puts inside.
     Poly4096,
 }
 
@@ -173,7 +173,7 @@ impl PlaneKind {
     }
 }
 
-/// How the two shapes of a pair lie. A size is the sum of the two bounding radii.
+/// How the two shapes of a pair are placed. "Size" is the sum of the two bounding radii.
 ///
 /// ```
 /// use asunder_scenes::pairs::PairSet;
@@ -182,23 +182,23 @@ impl PlaneKind {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PairSet {
-    /// What a broad phase hands over: the boxes around the shapes overlap, and two pairs of five are apart.
+    /// As a broad phase finds them: the AABBs overlap, and two pairs of five are apart.
     Mixed,
-    /// Face on face, sunk by 1e-4 to 1e-3 of size.
+    /// Face on face, with an overlap of 1e-4 to 1e-3 of size.
     Rest,
     /// As rest, and B slides across A's face in [`FRAMES`] frames.
     Slide,
-    /// B turns by one to three degrees a frame, about as near to A as it can touch.
+    /// B rotates by one to three degrees a frame, at a distance at which it just may touch A.
     Tumble,
     /// Four to ten metres between the centres.
     Far,
-    /// A vertex of B within 1e-3 of size of a face of A, on either side of it.
+    /// A vertex of B within 1e-3 of size of a face of A, inside or outside.
     Touch,
-    /// The centres nearly in one place.
+    /// The centres nearly coincide.
     Deep,
-    /// One shape twice in one pose: every axis is as good as its opposite.
+    /// The same shape twice in the same pose: every axis is as good as its opposite.
     Same,
-    /// One shape twice about one centre, turned apart.
+    /// The same shape twice about the same centre, in different rotations.
     Turned,
 }
 
@@ -236,7 +236,7 @@ impl PairSet {
         Self::ALL.into_iter().find(|set| set.name() == name)
     }
 
-    /// Whether the set is made of sequences, frame after frame.
+    /// Whether the set consists of sequences of frames.
     pub const fn is_sequence(self) -> bool {
         matches!(self, Self::Slide | Self::Tumble)
     }

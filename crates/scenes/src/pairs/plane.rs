@@ -8,10 +8,9 @@ use asunder_geometry::{Pose2, Rotation2, Shape2};
 use core::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
-/// `count` posed pairs of one family in the plane. Cost: as that of [`pairs3`](super::pairs3).
+/// `count` posed pairs of one family in the plane. Cost: as for [`pairs3`](super::pairs3).
 ///
-/// For the sets that are sequences the list goes frame by frame, and `count` is rounded up to whole sequences of
-/// [`FRAMES`].
+/// Sets that are sequences are listed frame by frame, and `count` is rounded up to whole sequences of [`FRAMES`].
 pub fn pairs2(kind: PlaneKind, set: PairSet, count: usize, seed: u64) -> Vec<PosedPair2> {
     let shapes: Vec<Flat> = polygons(kind, DISTINCT, seed).into_iter().map(Flat::new).collect();
     let mut random = Random::new(seed ^ 0x9a122);
@@ -103,7 +102,7 @@ fn one_pair(set: PairSet, shapes: &[Flat], random: &mut Random) -> PosedPair2 {
     posed(a, angle_a, b, angle_b, at, offset)
 }
 
-/// Drawn evenly from all placings whose boxes overlap, again until it falls on the side that was decided before.
+/// Draws uniformly among all placements whose AABBs overlap, until the pair is apart or not as decided beforehand.
 fn mixed(a: &Flat, b: &Flat, random: &mut Random) -> PosedPair2 {
     let wanted_apart = random.unit() < 0.4;
     loop {
@@ -123,7 +122,7 @@ fn corners(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-/// An edge of B on an edge of A.
+/// An edge of B lies on an edge of A.
 struct Stack {
     angle_a: f64,
     angle_b: f64,
@@ -173,7 +172,7 @@ struct Track<'a> {
     a: &'a Flat,
     b: &'a Flat,
     stack: Stack,
-    /// Radians a frame. Zero for a pair that slides.
+    /// Radians a frame; zero for a pair that slides.
     spin: f64,
 }
 
@@ -211,7 +210,7 @@ mod tests {
         surely_apart(&points(&pair.shape_a, &pair.pose_a), &points(&pair.shape_b, &pair.pose_b))
     }
 
-    /// Sign and size of the gap along one world axis from A to B.
+    /// The separation along one world axis from A to B, negative for overlap.
     fn gap(pair: &PosedPair2, axis: DVec2) -> f64 {
         let reach = |shape: &Shape2, pose: &Pose2, axis: DVec2| {
             let local = vertices2(shape);

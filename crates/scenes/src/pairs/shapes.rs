@@ -90,7 +90,7 @@ pub(crate) fn prism(sides: usize, radius: f64, half_height: f64) -> Shape3 {
     Hull::from_points(&points).expect(IN_RANGE).into()
 }
 
-/// A ball of circles of latitude, as modellers draw it, without its poles.
+/// A globe as modellers draw it, of circles of latitude, without its poles.
 fn globe(circles: usize, corners: usize, radius: f64) -> Shape3 {
     let corner = |i: usize, j: usize| {
         let latitude = TAU * 0.5 * ((i as f64 + 0.5) / circles as f64 - 0.5);
@@ -102,7 +102,8 @@ fn globe(circles: usize, corners: usize, radius: f64) -> Shape3 {
     Hull::from_points(&points).expect(IN_RANGE).into()
 }
 
-/// Random points on an ellipsoid, so that all are vertices. Crowded points are drawn again: no tool exports slivers.
+/// The hull of random points on an ellipsoid, so that all are vertices. Points too near others are drawn again: no tool
+/// exports slivers.
 pub(crate) fn ellipsoid(count: usize, random: &mut Random) -> Shape3 {
     let radii = random.within(DVec3::splat(0.4), DVec3::splat(0.6));
     let nearest_allowed = 1.6 / (count as f64).sqrt();
@@ -121,7 +122,7 @@ pub(crate) fn ellipsoid(count: usize, random: &mut Random) -> Shape3 {
     Hull::from_points(&points).expect(IN_RANGE).into()
 }
 
-/// Points around an ellipse at angles that are even up to `jitter`, a part of their spacing.
+/// Points around an ellipse, at equal angles up to `jitter`, a share of their spacing.
 fn ellipse(count: usize, jitter: f64, random: &mut Random) -> Shape2 {
     let (wide, high) = (random.range(0.4, 0.6), random.range(0.4, 0.6));
     let mut point = |i: usize| {

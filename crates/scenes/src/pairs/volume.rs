@@ -9,10 +9,9 @@ use asunder_geometry::{Pose3, Shape3, Topology};
 use core::f64::consts::TAU;
 use glam::DVec3;
 
-/// `count` posed pairs of one family. Cost: some microseconds per pair, tens for many vertices.
+/// `count` posed pairs of one family. Cost: some microseconds per pair, tens with many vertices.
 ///
-/// For the sets that are sequences the list goes frame by frame, and `count` is rounded up to whole sequences: see
-/// [`frames3`].
+/// Sets that are sequences are listed frame by frame, and `count` is rounded up to whole sequences: see [`frames3`].
 pub fn pairs3(kind: SolidKind, set: PairSet, count: usize, seed: u64) -> Vec<PosedPair3> {
     let shapes: Vec<Solid> = solids(kind, DISTINCT, seed).into_iter().map(Solid::new).collect();
     let mut random = Random::new(seed ^ 0x9a125);
@@ -24,7 +23,7 @@ pub fn pairs3(kind: SolidKind, set: PairSet, count: usize, seed: u64) -> Vec<Pos
     (0..count).map(|_| one_pair(set, &shapes, &mut random)).collect()
 }
 
-/// The same pairs as [`pairs3`], by frame: pair `i` of a frame goes on in pair `i` of the next. A set that is no
+/// The same pairs as [`pairs3`], by frame: pair `i` of a frame continues as pair `i` of the next. A set that is no
 /// sequence is one frame.
 pub fn frames3(kind: SolidKind, set: PairSet, count: usize, seed: u64) -> Vec<Vec<PosedPair3>> {
     let pairs = pairs3(kind, set, count, seed);
@@ -32,11 +31,11 @@ pub fn frames3(kind: SolidKind, set: PairSet, count: usize, seed: u64) -> Vec<Ve
     pairs.chunks(length.max(1)).map(<[PosedPair3]>::to_vec).collect()
 }
 
-/// A shape with what placing it needs.
+/// A shape, and what is needed to place it.
 struct Solid {
     shape: Shape3,
     vertices: Vec<DVec3>,
-    /// The broader half of its faces, the broadest first: bodies do not come to rest on slivers.
+    /// The larger half of its faces, the largest first: bodies do not come to rest on slivers.
     faces: Vec<Face>,
 }
 
@@ -117,7 +116,7 @@ fn one_pair(set: PairSet, shapes: &[Solid], random: &mut Random) -> PosedPair3 {
         PairSet::Deep | PairSet::Tumble => random.direction() * random.range(0.0, 0.1),
         PairSet::Same => return posed(a, turn_a, a, turn_a, at, DVec3::ZERO),
         PairSet::Turned => {
-            // About the middle of the shape, which is not its origin where points are random.
+            // About the shape's centre, which is not its origin where points are random.
             let center = a.shape.center().as_dvec3();
             return posed(a, turn_a, a, turn_b, at, turn_a.apply(center) - turn_b.apply(center));
         }
@@ -125,7 +124,7 @@ fn one_pair(set: PairSet, shapes: &[Solid], random: &mut Random) -> PosedPair3 {
     posed(a, turn_a, b, turn_b, at, offset)
 }
 
-/// Drawn evenly from all placings whose boxes overlap, again until it falls on the side that was decided before.
+/// Draws uniformly among all placements whose AABBs overlap, until the pair is apart or not as decided beforehand.
 fn mixed(a: &Solid, b: &Solid, random: &mut Random) -> PosedPair3 {
     let wanted_apart = random.unit() < 0.4;
     loop {
@@ -145,7 +144,7 @@ fn corners(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-/// A face of B on a face of A.
+/// A face of B lies on a face of A.
 struct Stack {
     turn_a: Turn,
     turn_b: Turn,
@@ -203,7 +202,7 @@ impl<'a> Track<'a> {
             return Self::Slide { a, b, stack: start, y: random.range(-0.3, 0.3) };
         }
         start.turn_b = random.turn();
-        // At eight or nine tenths of the sum of the radii it is a matter of the angle whether two solids touch.
+        // At this share of the sum of the radii, the angle decides whether two solids touch.
         start.centered = random.direction() * (size(a, b) * random.range(0.75, 0.9));
         let angle = random.range(1.0, 3.0) * TAU / 360.0;
         Self::Tumble { a, b, start, axis: random.direction(), angle }
@@ -226,7 +225,7 @@ impl<'a> Track<'a> {
 mod tests {
     use super::*;
 
-    /// Sign and size of the gap along one world axis from A to B.
+    /// The separation along one world axis from A to B, negative for overlap.
     fn gap(pair: &PosedPair3, axis: DVec3) -> f64 {
         let reach = |shape: &Shape3, pose: &Pose3, axis: DVec3| {
             vertices3(shape)
@@ -237,7 +236,7 @@ mod tests {
         -reach(&pair.shape_b, &pair.pose_b, -axis) - reach(&pair.shape_a, &pair.pose_a, axis)
     }
 
-    /// The widest gap along a face normal of A, as a part of the size.
+    /// The greatest separation along a face normal of A, as a share of the size.
     fn best_gap(pair: &PosedPair3) -> f64 {
         let normals = pair.shape_a.core().normals().to_vec();
         let turn = pair.pose_a.basis();

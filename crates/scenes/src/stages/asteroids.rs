@@ -24,7 +24,7 @@ pub(super) fn field(size: usize, seed: u64) -> Scene2 {
     let rocks = (size - bullets).max(1);
     let side = ((rocks as f64).sqrt().ceil() as usize).max(1);
     let half = 0.5 * CELL * side as f64 + 2.0;
-    // Bullets must not pass a sheet of steel either.
+    // Thin as sheets of steel: bullets must not pass them either.
     let thin = 0.05;
     for side in [-1.0, 1.0] {
         scene.fixed(upright(thin, half), DVec2::new(side * (half + thin), 0.0), 0.0);
@@ -44,7 +44,7 @@ pub(super) fn field(size: usize, seed: u64) -> Scene2 {
     for _ in 0..bullets {
         scene.bullets.push(scene.level.bodies.len() as u32);
         let way = TAU * random.unit();
-        // Between the rocks, where four cells meet.
+        // Between the rocks: at a corner where four cells meet.
         let corner = |random: &mut Random| (random.below(side) as f64 - 0.5 * side as f64) * CELL;
         let place = DVec2::new(corner(&mut random), corner(&mut random));
         scene.free(shot.clone(), place, 0.0).linear_velocity =

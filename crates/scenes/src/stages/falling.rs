@@ -1,4 +1,4 @@
-//! Heaps that are on their way into a pit: those of [`worlds`](crate::worlds), before they rest.
+//! Heaps that fall into a pit: those of [`worlds`](crate::worlds), before they rest.
 
 use super::{Feel, Scene3};
 use crate::pairs::{SolidKind, cuboid, solids};
@@ -8,13 +8,13 @@ use crate::worlds::WorldScene;
 use crate::worlds::piles::{BOXES, DISTINCT, HULLS, PIT, pit, side};
 use glam::{DVec3, Vec3};
 
-/// Metres to the lowest bodies.
+/// The height of the lowest bodies, in metres.
 const LOWEST: f64 = 1.0;
 
-/// Bodies turned anyhow in loose layers above the pit of a heap, which a solver is to let fall.
+/// Bodies in random rotations, in loose layers above the pit of a heap, for a solver to let fall.
 ///
-/// The frames that are measured are 60 from [`Self::first_frame`] on. What an engine meets in them, with contacts up to
-/// 2 cm apart, of the usual counts and seed 1:
+/// What is measured is the 60 frames from [`Self::first_frame`] on. What an engine finds in them, with contacts up to 2
+/// cm apart, for the usual counts and seed 1:
 ///
 /// | | bodies | candidates | touching | contacts | points |
 /// |---|---|---|---|---|---|
@@ -60,8 +60,8 @@ impl Falling {
         }
     }
 
-    /// Steps of 1/60 s until the first frame that counts: of the usual count, a quarter of the bodies have come to the
-    /// heap by then, and nearly all do so in the 60 frames that follow.
+    /// Steps of 1/60 s until the first measured frame: for the usual count, a quarter of the bodies have reached the
+    /// heap by then, and nearly all do in the 60 frames that follow.
     pub const fn first_frame(self) -> u32 {
         match self {
             Self::Boxes => 25,
@@ -69,10 +69,10 @@ impl Falling {
         }
     }
 
-    /// So many bodies, the pit's five among them, as they are let go: the pit first.
+    /// `count` bodies as they are released: first the pit's five, which are included in the count.
     ///
-    /// The pit is as wide as that of the heap at rest, and high enough for all to start in. Bodies are nearer than they
-    /// have room, turned anyhow; before the first frame that counts a solver has pushed them apart.
+    /// The pit is as wide as that of the heap at rest, and high enough for all to start in. Bodies have random
+    /// rotations and less space than they need; a solver pushes them apart before the first measured frame.
     pub fn above_pit(self, count: usize, seed: u64) -> Scene3 {
         let mut random = Random::new(seed ^ 0xfa11);
         let (spacing, loose, shapes) = match self {
@@ -97,7 +97,7 @@ impl Falling {
             body.linear_velocity = random.direction() * 0.3;
             body.angular_velocity = random.direction();
         }
-        // What keeps a heap standing for long takes more; to fall in does not.
+        // A heap that is to stand for long needs more substeps; one that falls does not.
         scene.feel = Feel { substeps: 4, ..scene.feel };
         let half = 0.5 * across + 0.02 * spacing.x;
         scene.room = (DVec3::new(-half, 0.0, -half), DVec3::new(half, high + 2.0, half));

@@ -1,4 +1,4 @@
-//! Heaps: in a pit, pushed about by a wall, turned over in a drum.
+//! Heaps: in a pit, pushed about by a wall, tumbled in a drum.
 
 use super::stacks::on_a_floor;
 use super::{Path3, Scene3};
@@ -9,13 +9,13 @@ use asunder_geometry::Shape3;
 use core::f64::consts::{PI, SQRT_2, TAU};
 use glam::{DVec3, Vec3};
 
-/// Different hulls in a heap; the clones share their data.
+/// The number of different hulls in a heap; the clones share their data.
 const DISTINCT: usize = 64;
 
 /// Half of a wall's thickness, in metres.
 const WALL: f64 = 1.0;
 
-/// Layers of 16 by 16, as high as it takes.
+/// Layers of 16 by 16, as many as needed.
 pub(super) fn convex_pile(size: usize, seed: u64) -> Scene3 {
     let mut random = Random::new(seed ^ 0xc0_9173);
     let shapes = solids(SolidKind::Hull32, DISTINCT, seed);
@@ -33,14 +33,14 @@ pub(super) fn convex_pile(size: usize, seed: u64) -> Scene3 {
     scene
 }
 
-/// Layers of 21 by 21, of a heap three times as long as high; the wall comes from the left.
+/// Layers of 21 by 21, for a heap three times as long as high; the wall comes from the left.
 pub(super) fn junkyard(size: usize, seed: u64) -> Scene3 {
     let mut random = Random::new(seed ^ 0x91a4d);
     let shapes = solids(SolidKind::Hull16, DISTINCT, seed);
     let side = (libm::cbrt(size as f64 * 0.875).ceil() as usize).max(1);
     let half = 0.5 * 1.2 * side as f64 + 0.5;
     let high = 1.2 * (size.div_ceil(side * side) + 2) as f64;
-    // Room to slump into, to the right.
+    // Room on the right for the heap to slump into.
     let yard = DVec3::new(2.0 * half, 0.5 * high, half);
     let mut scene = on_a_floor(yard.x + 4.0 * WALL, yard.z + 2.0 * WALL);
     walls(&mut scene, yard);
@@ -94,13 +94,13 @@ pub(super) fn washer(size: usize, seed: u64) -> Scene3 {
         let stray = random.within(DVec3::splat(-0.02), DVec3::splat(0.02));
         scene.free(shape.clone(), cell * 0.6 + stray - DVec3::Y * (half - 0.3), Turn::IDENTITY);
     });
-    // The circle around the staves: its square has the circle's sides.
+    // The box around the circle in which the staves turn.
     let out = DVec3::new(radius + 0.5, radius + 0.5, long + 0.1);
     scene.room = (-out, out);
     scene
 }
 
-/// Four walls around a floor: half the inside and half the height.
+/// Four walls around a floor; `inside` holds half the inner sizes, and half the height.
 fn walls(scene: &mut Scene3, inside: DVec3) {
     for side in [-1.0, 1.0] {
         let across_x = cuboid(DVec3::new(WALL, inside.y, inside.z + 2.0 * WALL).as_vec3());
@@ -110,7 +110,8 @@ fn walls(scene: &mut Scene3, inside: DVec3) {
     }
 }
 
-/// Calls for so many cells, layer on layer, in cells: around zero sideways, from zero upwards.
+/// Calls `place` for so many cells, layer by layer, with positions in cells: centred on zero sideways, from zero
+/// upwards.
 fn lattice(
     scene: &mut Scene3,
     count: usize,

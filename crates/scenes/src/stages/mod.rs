@@ -1,7 +1,7 @@
-//! Scenes for a solver: bodies with masses and speeds, and things that are driven through them.
+//! Scenes for a solver: bodies with masses and velocities, and driven bodies that move through them.
 //!
-//! Sizes are those that the field's own benchmarks use, so that people can compare. What moves a body is not said
-//! here: a scene gives shapes, poses, speeds, and where driven bodies are at each frame.
+//! Sizes are those of the field's own benchmarks, so that results can be compared. A scene gives shapes, poses,
+//! velocities, and the poses of driven bodies at each frame; what moves the others is up to the solver.
 //!
 //! ```
 //! use asunder_scenes::stages::{Scene, Stage};
@@ -49,21 +49,21 @@ pub enum Stage {
     ManyPyramids,
     /// Hulls of 32 points that fall into a pit.
     ConvexPile,
-    /// Rocks in a yard, and a wall that pushes them to and fro.
+    /// Rocks in a yard, and a wall that pushes them back and forth.
     Junkyard,
     /// Boxes in a turning drum.
     Washer,
     /// A landscape of fixed boxes, and a few bodies that move on it.
     LargeWorld,
-    /// Walking characters of 19 parts each: all of them are driven.
+    /// Walking characters of 19 parts each, all of them driven.
     Crowd,
     /// A spiral of dominoes, of which the first is tipped.
     Dominoes,
     /// A house of cards.
     CardHouse,
-    /// A wall of bricks, and a ball that flies at it: the last body.
+    /// A wall of bricks, and a ball that flies at it: the last body of the scene.
     BrickWall,
-    /// Boxes on one another.
+    /// Boxes stacked on one another.
     Stack,
     /// One pyramid in the plane.
     Pyramid2d,
@@ -71,7 +71,7 @@ pub enum Stage {
     ManyPyramids2d,
     /// Boxes in a turning box, in the plane.
     Tumbler,
-    /// Pentagons in a yard, and a wall that pushes them to and fro, in the plane.
+    /// Pentagons in a yard, and a wall that pushes them back and forth, in the plane.
     Junkyard2d,
     /// Concave letters that rain into a pit, in the plane.
     Letters,
@@ -94,35 +94,35 @@ pub type Scene2 = SceneOf<DVec2, LevelBody2, Path2>;
 /// A scene in space.
 pub type Scene3 = SceneOf<DVec3, LevelBody3, Path3>;
 
-/// A scene: [`Scene2`] and [`Scene3`] are what it comes as.
+/// A scene of either dimension, used as [`Scene2`] and [`Scene3`].
 #[derive(Clone, Debug)]
 pub struct SceneOf<Vector, Body, Path> {
-    /// Gravity, and bodies as they are at the start.
+    /// Gravity, and the bodies as they are at the start.
     pub level: LevelOf<Vector, Body>,
-    /// Bodies that are driven, ascending. No contact moves them. One that is not `fixed` besides meets the scenery, and
-    /// others that are driven.
+    /// The driven bodies, ascending. No contact moves them. One that is not also `fixed` has contacts with scenery and
+    /// with other driven bodies.
     pub drivers: Vec<Driver<Path>>,
-    /// Bodies so fast that they must not be let through anything, ascending.
+    /// Bodies so fast that they need continuous collision, ascending.
     pub bullets: Vec<u32>,
-    /// Bodies that have an owner, ascending, each with its own: two of one owner never meet.
+    /// The bodies that have an owner, ascending, with that owner: two bodies of one owner never collide.
     pub owners: Vec<(u32, u64)>,
-    /// What bodies are like where they touch.
+    /// How bodies behave where they touch.
     pub feel: Feel,
-    /// Two corners of the box that no body's centre leaves, if all goes well; infinite where there is none.
+    /// Two corners of the box that no body's centre should ever leave; infinite where there is none.
     pub room: (Vector, Vector),
 }
 
-/// What all bodies of a scene are like.
+/// The material of all bodies of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feel {
     /// Coefficient of friction.
     pub friction: f64,
-    /// Share of the speed of an impact that is given back, 0 to 1.
+    /// The share of an impact's speed that is given back, 0 to 1.
     pub restitution: f64,
-    /// Share of a spin that is lost in a second, about: what air and rolling take.
+    /// About the share of a spin that is lost in a second, to air and rolling resistance.
     pub spin_damping: f64,
-    /// How many short steps a solver should cut a step of 1/60 s into: what stands on thin edges or bears a hundred
-    /// others takes more. Its cost grows with it.
+    /// The substeps into which a solver should divide a step of 1/60 s: bodies that stand on thin edges or bear a
+    /// hundred others need more. Its cost grows with their number.
     pub substeps: u32,
 }
 
@@ -131,7 +131,7 @@ pub struct Feel {
 pub struct Driver<Path> {
     /// Its number among the level's bodies.
     pub body: u32,
-    /// Where it is, frame by frame.
+    /// Its pose, frame by frame.
     pub path: Path,
 }
 
@@ -164,7 +164,7 @@ impl Stage {
         Self::Asteroids,
     ];
 
-    /// The name to call it by.
+    /// The name to select it by.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Pyramid => "pyramid",
@@ -192,7 +192,7 @@ impl Stage {
         Self::ALL.into_iter().find(|stage| stage.name() == name)
     }
 
-    /// What there is to see, in a few words.
+    /// What it shows, in a few words.
     pub const fn about(self) -> &'static str {
         match self {
             Self::Pyramid => "boxes, a hundred in the lowest row",
@@ -215,7 +215,7 @@ impl Stage {
         }
     }
 
-    /// What [`build`](Self::build) is usually given.
+    /// The size usually given to [`build`](Self::build).
     pub const fn usual_size(self) -> usize {
         match self {
             Self::Pyramid | Self::Pyramid2d => 5050,
@@ -248,11 +248,11 @@ impl Stage {
         )
     }
 
-    /// The scene with `size` bodies beside its scenery, or a few less, so that pyramids, storeys and characters are
-    /// whole; at least one of those. Of [`Stage::LargeWorld`] the size is that of the landscape, and one body for ten
-    /// thousand of its boxes moves.
+    /// The scene with `size` bodies besides its scenery, or a few less so that pyramids, storeys and characters are
+    /// whole, but at least one of those. For [`Stage::LargeWorld`] the size is that of the landscape, and one body
+    /// moves for every ten thousand of its boxes.
     ///
-    /// Cost: linear in the size, and that of making up to 64 hulls.
+    /// Cost: linear in the size, plus that of making up to 64 hulls.
     pub fn build(self, size: usize, seed: u64) -> Scene {
         let mut scene = match self {
             Self::Pyramid => Scene::Volume(stacks::pyramid(size)),
@@ -355,7 +355,7 @@ fn body<Shape, Pose, Vector: Default, Spin: Default>(
     }
 }
 
-/// Appends, and shows what was appended.
+/// Appends an item, and returns a reference to it.
 fn push<T>(list: &mut Vec<T>, item: T) -> &mut T {
     let last = list.len();
     list.push(item);

@@ -1,4 +1,4 @@
-//! Wide scenes in which most bodies are no solver's business.
+//! Wide scenes in which a solver moves few of the bodies or none.
 
 use super::{Driver, Path3, Scene3};
 use crate::pairs::{SolidKind, cuboid, solids};
@@ -10,10 +10,10 @@ use glam::{DVec3, Vec3};
 
 /// Metres from one box of the landscape to the next.
 const TILE: f64 = 2.0;
-/// Boxes of the landscape for each body that moves.
+/// The number of boxes in the landscape for each body that moves.
 const ONE_OF: usize = 10_000;
 
-/// Blocks whose tops are uneven by a hand, and bodies that fall on them and roll.
+/// Blocks whose tops are uneven by about a hand, and bodies that fall on them and roll.
 pub(super) fn large_world(size: usize, seed: u64) -> Scene3 {
     let mut random = Random::new(seed ^ 0x1a46e);
     let mut scene = Scene3::empty();
@@ -41,7 +41,7 @@ pub(super) fn large_world(size: usize, seed: u64) -> Scene3 {
     scene
 }
 
-/// The walkers of [`WorldScene::Crowd`], as bodies that are driven.
+/// The walkers of [`WorldScene::Crowd`], as driven bodies.
 pub(super) fn crowd(size: usize, seed: u64) -> Scene3 {
     let walkers = Replay3::new(WorldScene::Crowd, size + 1, seed);
     let mut scene = Scene3::empty();

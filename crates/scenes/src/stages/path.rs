@@ -1,4 +1,4 @@
-//! Where driven bodies are, frame by frame, in closed form.
+//! The poses of driven bodies, frame by frame, in closed form.
 
 use crate::pairs::{pose2, pose3};
 use crate::turn::Turn;
@@ -10,11 +10,11 @@ use glam::{DVec2, DVec3};
 /// Frames a second.
 const RATE: f64 = 60.0;
 
-/// Where a body of the plane is at each frame, of 1/60 s.
+/// The pose of a body in the plane at each frame, of 1/60 s.
 #[derive(Clone, Debug)]
 pub struct Path2(Way2);
 
-/// Where a body of space is at each frame, of 1/60 s.
+/// The pose of a body in space at each frame, of 1/60 s.
 #[derive(Clone, Debug)]
 pub struct Path3(Way3);
 
@@ -31,12 +31,12 @@ enum Way3 {
     Walking(Motion3),
 }
 
-/// To and fro between two places, slowly near both.
+/// Back and forth between two places, slowly near both.
 #[derive(Clone, Debug)]
 struct Push<Vector> {
     from: Vector,
     reach: Vector,
-    /// Seconds for both ways.
+    /// Seconds for the way there and back.
     period: f64,
 }
 
@@ -47,7 +47,7 @@ impl<Vector> Push<Vector> {
 }
 
 impl Path2 {
-    /// About the origin, at a speed in radians a second.
+    /// Turns about the origin, at a speed in radians a second.
     pub(super) fn turning(position: DVec2, angle: f64, speed: f64) -> Self {
         Self(Way2::Turning { position, angle, speed })
     }
@@ -56,7 +56,7 @@ impl Path2 {
         Self(Way2::Pushing(Push { from, reach, period }))
     }
 
-    /// Where the body is.
+    /// The pose at a frame.
     pub fn pose_at(&self, frame: u32) -> Pose2 {
         match &self.0 {
             Way2::Turning { position, angle, speed } => {
@@ -70,7 +70,7 @@ impl Path2 {
 }
 
 impl Path3 {
-    /// About an axis through the origin, at a speed in radians a second.
+    /// Turns about an axis through the origin, at a speed in radians a second.
     pub(super) fn turning(position: DVec3, turn: Turn, axis: DVec3, speed: f64) -> Self {
         Self(Way3::Turning { position, turn, axis, speed })
     }
@@ -83,7 +83,7 @@ impl Path3 {
         Self(Way3::Walking(motion))
     }
 
-    /// Where the body is.
+    /// The pose at a frame.
     pub fn pose_at(&self, frame: u32) -> Pose3 {
         match &self.0 {
             Way3::Turning { position, turn, axis, speed } => {

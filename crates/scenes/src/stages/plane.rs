@@ -14,7 +14,7 @@ const WALL: f64 = 1.0;
 pub(super) fn pyramid(size: usize) -> Scene2 {
     let base = base_of(size);
     let mut scene = on_a_floor(0.6 * base as f64 + 10.0);
-    // In the plane it cannot lean: it takes what holds its lowest rows still.
+    // In the plane it cannot lean over: it needs only what holds its lowest rows still.
     scene.feel.substeps = if base > 40 { 12 } else { 8 };
     let shape = rect(Vec2::splat(0.5));
     for (x, y) in pyramid_places(base) {
@@ -40,7 +40,7 @@ pub(super) fn many_pyramids(size: usize) -> Scene2 {
 /// Radians a second: 25 degrees.
 const TUMBLER_SPEED: f64 = 25.0 * PI / 180.0;
 
-/// Boxes of half a metre in a square of four walls that turns about its middle.
+/// Boxes of half a metre in a square of four walls that turns about its centre.
 pub(super) fn tumbler(size: usize, seed: u64) -> Scene2 {
     let mut random = Random::new(seed ^ 0x707b1);
     let side = ((size as f64).sqrt().ceil() as usize).max(1);
@@ -91,14 +91,14 @@ fn pentagon(radius: f64) -> Shape2 {
     Polygon::hull_of(&points).expect("five corners in range").into()
 }
 
-/// A floor with its top at zero, and so far to each side.
+/// A floor with its top at zero, which extends by `reach` to each side.
 fn on_a_floor(reach: f64) -> Scene2 {
     let mut scene = Scene2::empty();
     scene.fixed(rect(DVec2::new(reach, 1.0).as_vec2()), DVec2::NEG_Y, 0.0);
     scene
 }
 
-/// A floor and two walls: half the inside.
+/// A floor and two walls; `inside` holds half the inner sizes.
 pub(super) fn pit(inside: DVec2) -> Scene2 {
     let mut scene = on_a_floor(inside.x + 2.0 * WALL);
     let wall = rect(DVec2::new(WALL, inside.y).as_vec2());
@@ -109,7 +109,7 @@ pub(super) fn pit(inside: DVec2) -> Scene2 {
     scene
 }
 
-/// Calls for so many cells, row on row: around zero sideways, from zero upwards.
+/// Calls `place` for so many cells, row by row, with positions in cells: centred on zero sideways, from zero upwards.
 pub(super) fn grid(count: usize, wide: usize, mut place: impl FnMut(DVec2)) {
     for i in 0..count {
         place(DVec2::new((i % wide) as f64 - 0.5 * (wide as f64 - 1.0), (i / wide) as f64));

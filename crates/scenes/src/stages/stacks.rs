@@ -1,4 +1,4 @@
-//! What is built, and should stand or fall.
+//! Structures that should stand, or fall.
 
 use super::Scene3;
 use crate::pairs::cuboid;
@@ -7,13 +7,13 @@ use asunder_geometry::{Shape3, Sphere};
 use core::f64::consts::FRAC_PI_2;
 use glam::{DVec3, Vec3};
 
-/// Metres between the middles of neighbours in a row of a pyramid of boxes of 1 m: with the gap, neighbours have no
-/// contact.
+/// Metres between the centres of neighbours in a row of a pyramid of boxes of 1 m: because of the gap, neighbours have
+/// no contact.
 const PITCH: f64 = 1.05;
 /// Boxes in the lowest row of each of many pyramids.
 const SMALL_BASE: usize = 10;
 
-/// Rows of the largest pyramid of so many boxes, one row at least.
+/// The number of rows of the largest pyramid of at most `size` boxes; at least one.
 pub(super) fn base_of(size: usize) -> usize {
     let mut base = 1;
     while (base + 1) * (base + 2) / 2 <= size {
@@ -22,15 +22,15 @@ pub(super) fn base_of(size: usize) -> usize {
     base
 }
 
-/// What a pyramid takes to stand still: it is a wall, one box thick, and on contacts that are springs a wall buckles
-/// under its own weight. Of one h high, their rate must grow as h to the 3/2 (Greenhill, 1881), and so must what
-/// their rate is a share of.
+/// The substeps with which a pyramid stands still. It is a wall one box thick, and with springs as contacts a wall
+/// buckles under its own weight. For a height h the frequency of the springs must grow as h to the 3/2 (Greenhill,
+/// 1881), and so must the substep rate, of which it is a fixed share.
 fn substeps_of(base: usize) -> u32 {
     let base = base as f64;
     (0.048 * base * base.sqrt()).round().clamp(8.0, 100.0) as u32
 }
 
-/// Middles of a pyramid's boxes of 1 m.
+/// Centres of a pyramid's boxes of 1 m.
 pub(super) fn pyramid_places(base: usize) -> impl Iterator<Item = (f64, f64)> {
     (0..base).flat_map(move |row| {
         let wide = base - row;
@@ -38,7 +38,7 @@ pub(super) fn pyramid_places(base: usize) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// How many pyramids there are boxes for, and how many go in a row.
+/// The base of each small pyramid, how many there are boxes for, and how many go in a row.
 pub(super) fn small_pyramids(size: usize) -> (usize, usize, usize) {
     let boxes = SMALL_BASE * (SMALL_BASE + 1) / 2;
     let count = (size / boxes).max(1);
@@ -73,7 +73,7 @@ pub(super) fn many_pyramids(size: usize) -> Scene3 {
 
 pub(super) fn stack(size: usize) -> Scene3 {
     let mut scene = on_a_floor(5.0, 5.0);
-    // With fewer the tower sways, a centimetre at its top.
+    // With fewer, the top of the tower sways by a centimetre.
     scene.feel.substeps = 12;
     for i in 0..size.max(1) {
         scene.free(unit(), DVec3::new(0.0, i as f64 + 0.5, 0.0), Turn::IDENTITY);
@@ -86,7 +86,7 @@ const CARD: Vec3 = Vec3::new(0.01, 0.5, 0.35);
 /// How far a card leans, in radians.
 const LEAN: f64 = 0.4;
 
-/// Storeys of tents of two cards that lean on each other, and cards laid from tent to tent.
+/// Storeys of tents, each of two cards that lean on each other, and cards laid from tent to tent.
 pub(super) fn card_house(size: usize) -> Scene3 {
     let mut storeys = 1;
     while (storeys + 1) * (3 * storeys + 4) / 2 <= size {
@@ -97,7 +97,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
     let card = cuboid(CARD);
     let (thick, high) = (f64::from(CARD.x), f64::from(CARD.y));
     let (sin, cos) = libm::sincos(LEAN);
-    // A tent is as high as the upper corners of its cards' tops; cards that lie end to end have a gap of 2 mm.
+    // A tent is as high as its cards' upper corners; cards that lie end to end have a gap of 2 mm.
     let (tent, storey) = (2.0 * (high * cos + thick * sin), 2.0 * (high * cos + thick * sin + thick));
     let pitch = 2.0 * high + 0.002;
     for level in 0..storeys {
@@ -105,7 +105,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
         for i in 0..tents {
             let middle = (i as f64 - 0.5 * (tents as f64 - 1.0)) * pitch;
             for side in [-1.0, 1.0] {
-                // The corners of both meet over the middle of the tent.
+                // The upper corners of both cards meet over the middle of the tent.
                 let place = DVec3::new(middle + side * (thick * cos + high * sin), floor + 0.5 * tent, 0.0);
                 scene.free(card.clone(), place, Turn::about(DVec3::Z, side * LEAN));
             }
@@ -123,7 +123,7 @@ const BRICK: Vec3 = Vec3::new(0.5, 0.25, 0.25);
 /// Bricks in a course.
 const COURSE: usize = 10;
 
-/// Courses of bricks in running bond, closed by half bricks, and a ball on its way.
+/// Courses of bricks in running bond, closed by half bricks, and a ball that flies at them.
 pub(super) fn brick_wall(size: usize) -> Scene3 {
     let mut scene = on_a_floor(15.0, 27.0);
     let (whole, half) = (cuboid(BRICK), cuboid(Vec3::new(0.5 * BRICK.x - 0.002, BRICK.y, BRICK.z)));
@@ -154,11 +154,11 @@ pub(super) fn brick_wall(size: usize) -> Scene3 {
     scene
 }
 
-/// Half of a domino, in metres: it falls along x.
+/// Half extents of a domino, in metres: it falls along x.
 const DOMINO: Vec3 = Vec3::new(0.08, 0.5, 0.25);
 
 pub(super) fn dominoes(size: usize) -> Scene3 {
-    // Each stands so far from the last, on a spiral that opens by a pace a turn.
+    // Each stands `step` from the last, on a spiral that widens by a pace a turn.
     let (step, opening, inner) = (0.5, 0.03, 3.0);
     let outer = inner + opening * size as f64 + 2.0;
     let mut scene = on_a_floor(outer, outer);
@@ -179,7 +179,7 @@ pub(super) fn dominoes(size: usize) -> Scene3 {
     scene
 }
 
-/// A floor with its top at zero, and so far to each side.
+/// A floor with its top at zero, which extends by x and z to each side.
 pub(super) fn on_a_floor(x: f64, z: f64) -> Scene3 {
     let mut scene = Scene3::empty();
     let half = DVec3::new(x, 1.0, z);

@@ -17,7 +17,8 @@ fn count(scene: &Scene) -> usize {
 fn stages_of_the_usual_size_have_as_many_bodies() {
     for stage in Stage::ALL {
         let moving = count(&stage.build(stage.usual_size(), 1));
-        // Half bricks make every other course longer by one, and the wall has a ball; of the large world a few move.
+        // Half bricks add one to every other course, and the wall has a ball; of the large world only a few bodies
+        // move.
         let expected = match stage {
             Stage::BrickWall => 211,
             Stage::LargeWorld => 100,

@@ -7,11 +7,11 @@ use crate::random::Random;
 use crate::turn::Turn;
 use glam::{DVec3, Vec3};
 
-/// Metres from one street to the next.
+/// Metres between neighbouring streets.
 const BLOCK: f64 = 20.0;
 
-/// One body of `one_of` moves, and one at least: traffic along the streets between buildings on square lots, one
-/// box a lot.
+/// One body of `one_of` moves, and at least one: traffic along the streets between buildings on square lots, one box a
+/// lot.
 pub(super) fn streets(count: usize, one_of: usize, seed: u64) -> Replay3 {
     let mut random = Random::new(seed ^ 0xc177);
     let mut replay = Replay3::default();
@@ -25,7 +25,7 @@ pub(super) fn streets(count: usize, one_of: usize, seed: u64) -> Replay3 {
         let place = DVec3::new((lot % side) as f64 + 0.5, 0.0, (lot / side) as f64 + 0.5) * BLOCK;
         let size = random.within(DVec3::new(6.9, 2.0, 6.9), DVec3::new(7.2, 25.0, 7.2));
         let middle = place + DVec3::new(-half, size.y - 0.1, -half);
-        // Askew, so that the boxes around them reach into the streets.
+        // Askew, so that their AABBs reach into the streets.
         let turn = Turn::about(DVec3::Y, random.range(-0.78, 0.78));
         replay.fixed(cuboid(size.as_vec3()), Motion3::still(middle).turned(turn));
     }
@@ -33,7 +33,7 @@ pub(super) fn streets(count: usize, one_of: usize, seed: u64) -> Replay3 {
     replay
 }
 
-/// Bodies that follow a street to and fro. Three of ten drive on the ground; the others fly, and turn as they go.
+/// Bodies that follow a street back and forth. Three of ten drive on the ground; the others fly, and rotate as they go.
 fn traffic(replay: &mut Replay3, count: usize, side: usize, seed: u64, random: &mut Random) {
     let shapes = solids(SolidKind::Hull16, 16, seed);
     let half = 0.5 * BLOCK * side as f64;

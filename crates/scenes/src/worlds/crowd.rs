@@ -1,4 +1,4 @@
-//! Characters that walk about in a yard.
+//! Characters that walk in a yard.
 
 use super::Replay3;
 use super::motion::Motion3;
@@ -8,13 +8,13 @@ use crate::turn::Turn;
 use asunder_geometry::Shape3;
 use glam::{DVec3, Vec3};
 
-/// Parts of one character.
+/// Parts per character.
 const PARTS: usize = 19;
 
-/// Metres from one character to the next.
+/// Metres between neighbouring characters.
 const SPACING: f64 = 0.6;
 
-/// One part: half its size, its middle above the ground where the character stands, and how far it swings ahead.
+/// One part: its shape, its centre relative to the ground under the character, and how far it swings forward.
 struct Part {
     shape: Shape3,
     middle: DVec3,
@@ -36,7 +36,7 @@ pub(super) fn walkers(count: usize, seed: u64) -> Replay3 {
         let cell = DVec3::new((character % side) as f64 + 0.5, 0.0, (character / side) as f64 + 0.5);
         let stray = random.within(DVec3::new(-0.04, 0.0, -0.04), DVec3::new(0.04, 0.0, 0.04));
         let root = cell * SPACING + stray - corner;
-        // They go the same way, as in a street: paths that crossed would lead through one another.
+        // All go the same way, as in a street: crossing paths would lead through one another.
         let heading = random.range(-0.1, 0.1);
         let ahead = DVec3::new(libm::sin(heading), 0.0, libm::cos(heading));
         let turn = Turn::about(DVec3::Y, heading);
@@ -54,7 +54,7 @@ pub(super) fn walkers(count: usize, seed: u64) -> Replay3 {
     replay
 }
 
-/// A body 1.8 m high that looks along z: trunk and head, then both arms and legs.
+/// A body 1.8 m high that faces along z: trunk and head, then both arms and legs.
 fn parts() -> Vec<Part> {
     let boxed = |half: [f32; 3], middle: [f64; 3], swing: f64| Part {
         shape: cuboid(Vec3::from(half)),

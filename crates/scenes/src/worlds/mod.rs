@@ -1,9 +1,9 @@
-//! Whole worlds: bodies whose poses are known frame by frame, for measuring a frame from poses to contacts.
+//! Whole worlds: bodies with known poses in every frame, to measure a whole frame from poses to contacts.
 //!
-//! In a [`WorldScene`] no solver ran: a body sways about its place, or flies straight on and turns back at a wall, as a
-//! function of the frame's number alone. A heap at rest therefore looks to an engine as a heap does that a solver
-//! holds: nearly the same pairs each frame, every pose a little different. A heap that falls in takes a solver:
-//! somebody steps [`Falling`](crate::stages::Falling), and [`Replay3::recorded`] plays the poses again.
+//! A [`WorldScene`] needs no solver: a body sways about its place, or flies straight and turns back at a wall, as a
+//! function of the frame's number alone. To an engine, a heap at rest therefore looks like one held by a solver: nearly
+//! the same pairs each frame, and every pose a little different. A heap that falls does need a solver: step
+//! [`Falling`](crate::stages::Falling) once, and [`Replay3::recorded`] replays the poses.
 //!
 //! ```
 //! use asunder_scenes::worlds::{Replay2, Replay3, WorldScene};
@@ -44,15 +44,15 @@ pub enum WorldScene {
     ConvexPile,
     /// Pyramids twenty boxes high on a floor, at rest but awake.
     ManyPyramids,
-    /// Boxes and hulls of 8, 16 and 32 points in the air, every other one turning and drifting.
+    /// Boxes and hulls of 8, 16 and 32 points in the air; every other one rotates and drifts.
     Mixed,
-    /// Walking characters of 19 parts each, which do not meet each other's own parts.
+    /// Walking characters of 19 parts each; parts of one character do not collide.
     Crowd,
     /// A city of fixed boxes in which one body of a hundred moves.
     MostlyStatic,
     /// A far larger city in which one body of ten thousand moves.
     World1m,
-    /// Shapes that are loosely spread and could move; one of a hundred does.
+    /// Loosely spread shapes that could all move; one of a hundred does.
     Spread1,
 }
 
@@ -116,13 +116,13 @@ pub struct Body3 {
     pub shape: Shape3,
     /// Where it is in this frame.
     pub pose: Pose3,
-    /// Its drift at the start, in m/s. Swaying about a place is no drift.
+    /// Its drift at the start, in m/s; swaying about a place does not count.
     pub velocity: Vec3,
-    /// It never moves, and two such bodies are no pair.
+    /// Whether it never moves. Two fixed bodies are no pair.
     pub fixed: bool,
-    /// It notices, and is not touched.
+    /// Whether it is a sensor, which detects but does not collide.
     pub sensor: bool,
-    /// Bodies with the same owner are no pair.
+    /// Two bodies with the same owner are no pair.
     pub owner: Option<u64>,
 }
 
@@ -139,29 +139,29 @@ pub struct Body2 {
     pub shape: Shape2,
     /// Where it is in this frame.
     pub pose: Pose2,
-    /// Its drift at the start, in m/s. Swaying about a place is no drift.
+    /// Its drift at the start, in m/s; swaying about a place does not count.
     pub velocity: Vec2,
-    /// It never moves, and two such bodies are no pair.
+    /// Whether it never moves. Two fixed bodies are no pair.
     pub fixed: bool,
-    /// It notices, and is not touched.
+    /// Whether it is a sensor, which detects but does not collide.
     pub sensor: bool,
-    /// Bodies with the same owner are no pair.
+    /// Two bodies with the same owner are no pair.
     pub owner: Option<u64>,
 }
 
-/// A world in space at one frame. See the [module](self) for what its motion is and is not.
+/// A world in space at one frame. See the [module](self) on its motion.
 #[derive(Clone, Debug, Default)]
 pub struct Replay3 {
     /// All bodies, in this frame's poses.
     pub bodies: Vec<Body3>,
     movers: Vec<u32>,
     motions: Vec<Motion3>,
-    /// Of the movers, frame by frame, in place of motions.
+    /// The poses of the movers, frame by frame, if recorded: they replace the motions.
     recording: Option<Arc<[Vec<Pose3>]>>,
 }
 
 impl Replay3 {
-    /// The world at frame 0, with `count` bodies or a few less, so that pyramids and characters are whole.
+    /// The world at frame 0, with `count` bodies or a few less so that pyramids and characters are whole.
     pub fn new(scene: WorldScene, count: usize, seed: u64) -> Self {
         let mut replay = match scene {
             WorldScene::BoxesPile => piles::boxes(count, seed),
@@ -177,8 +177,8 @@ impl Replay3 {
         replay
     }
 
-    /// Bodies that follow what was written down of them: in each frame the poses of all that are not fixed, in their
-    /// order. After the last frame they go back the way they came, to and fro. Clones share the poses.
+    /// Bodies that follow a recording: for each frame, the poses of all bodies that are not fixed, in their order.
+    /// After the last frame they go back the way they came, and so on. Clones share the poses.
     ///
     /// ```
     /// use asunder_geometry::Pose3;
@@ -199,8 +199,8 @@ impl Replay3 {
         replay
     }
 
-    /// Poses all moving bodies as at frame number `frame`, of 1/60 s. Cost: some 100 ns a moving body, and less where
-    /// poses were recorded.
+    /// Sets the poses of all moving bodies to those at frame number `frame`, of 1/60 s. Cost: some 100 ns per moving
+    /// body, and less where poses were recorded.
     pub fn advance(&mut self, frame: u32) {
         if let Some(frames) = &self.recording {
             let poses = to_and_fro(frame as usize, frames.len()).and_then(|place| frames.get(place));
@@ -215,12 +215,12 @@ impl Replay3 {
         }
     }
 
-    /// Which bodies move, ascending: the same in all frames.
+    /// The bodies that move, ascending: the same in all frames.
     pub fn movers(&self) -> &[u32] {
         &self.movers
     }
 
-    /// How they move, in the same order.
+    /// The motions of the movers, in the same order.
     pub(crate) fn motions(&self) -> &[Motion3] {
         &self.motions
     }
@@ -232,7 +232,7 @@ impl Replay3 {
         }
     }
 
-    /// A body that could move and does not.
+    /// A body that could move but does not.
     fn resting(&mut self, shape: Shape3, motion: Motion3) {
         let (position, turn) = motion.at(0);
         let pose = pose3(position, turn);
@@ -255,14 +255,14 @@ impl Replay3 {
     }
 }
 
-/// Which of so many frames is shown, when the last has the one before it for a successor; nothing of none.
+/// The index of the frame to show, out of `count` frames that are played back and forth; `None` if there are none.
 fn to_and_fro(frame: usize, count: usize) -> Option<usize> {
     let last = count.checked_sub(1)?;
     let place = frame % (2 * last).max(1);
     Some(place.min(2 * last - place.min(2 * last)))
 }
 
-/// A world in the plane at one frame. See the [module](self) for what its motion is and is not.
+/// A world in the plane at one frame. See the [module](self) on its motion.
 #[derive(Clone, Debug, Default)]
 pub struct Replay2 {
     /// All bodies, in this frame's poses.
@@ -272,7 +272,7 @@ pub struct Replay2 {
 }
 
 impl Replay2 {
-    /// The world at frame 0, with `count` bodies or a few less, so that pyramids are whole.
+    /// The world at frame 0, with `count` bodies or a few less so that pyramids are whole.
     ///
     /// Only [`WorldScene::ManyPyramids`] and [`WorldScene::Mixed`] have twins in the plane; any other scene gives the
     /// latter.
@@ -285,14 +285,14 @@ impl Replay2 {
         replay
     }
 
-    /// Poses all moving bodies as at frame number `frame`, of 1/60 s.
+    /// Sets the poses of all moving bodies to those at frame number `frame`, of 1/60 s.
     pub fn advance(&mut self, frame: u32) {
         for (&i, motion) in self.movers.iter().zip(&self.motions) {
             self.bodies[i as usize].pose = motion.pose_at(frame);
         }
     }
 
-    /// Which bodies move, ascending: the same in all frames.
+    /// The bodies that move, ascending: the same in all frames.
     pub fn movers(&self) -> &[u32] {
         &self.movers
     }

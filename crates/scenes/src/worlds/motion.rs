@@ -1,4 +1,4 @@
-//! Motion in closed form: where a body is at a frame does not depend on the frames before.
+//! Motion in closed form: a pose does not depend on the frames before.
 
 use crate::pairs::pose2;
 use crate::random::Random;
@@ -10,8 +10,8 @@ use glam::{DVec2, DVec3};
 /// Seconds a frame.
 const STEP: f64 = 1.0 / 60.0;
 
-/// A root that flies straight on in a room and turns back at its walls; a part that hangs at an offset from the root,
-/// swings about it, and spins.
+/// A root moves straight through a room and turns back at its walls. The body is at an offset from the root, swings
+/// about that place, and spins.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion3 {
     pub(super) root: DVec3,
@@ -22,7 +22,7 @@ pub(crate) struct Motion3 {
     pub(super) offset: DVec3,
     /// Amplitude, in metres.
     pub(super) swing: DVec3,
-    /// Frames for a swing to and fro.
+    /// Frames for one swing back and forth.
     pub(super) period: f64,
     /// Where in the swing frame 0 is, from 0 to 1.
     pub(super) phase: f64,
@@ -80,7 +80,7 @@ impl Motion3 {
     }
 }
 
-/// The twin of [`Motion3`] in the plane, without a room: what drifts there turns back by swinging.
+/// The twin of [`Motion3`] in the plane, without a room: bodies that drift turn back because they swing.
 #[derive(Clone, Debug)]
 pub(super) struct Motion2 {
     pub(super) root: DVec2,
@@ -112,12 +112,12 @@ impl Motion2 {
     }
 }
 
-/// A wave of straight lines between -1 and 1, of period 1.
+/// A triangle wave between -1 and 1, of period 1.
 fn triangle(x: f64) -> f64 {
     4.0 * (x - x.floor() - 0.5).abs() - 1.0
 }
 
-/// A coordinate that went on through mirrors at both ends.
+/// A coordinate reflected at both ends of a range.
 fn fold(x: f64, low: f64, high: f64) -> f64 {
     let width = high - low;
     if !width.is_finite() || width <= 0.0 {

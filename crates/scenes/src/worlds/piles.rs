@@ -8,20 +8,20 @@ use crate::turn::Turn;
 use asunder_geometry::Shape3;
 use glam::{DVec3, Vec3};
 
-/// How far a resting body strays, in metres: what a solver leaves.
+/// How far a resting body strays, in metres: the residual motion that a solver leaves.
 const TREMBLE: f64 = 2e-5;
 
-/// From box to box. Just higher than a layer is, the boxes overlap those below by half a millimetre. With this much
-/// room at the sides some touch their neighbours, and two of three candidates do not touch.
+/// Spacing of boxes of 1 m. Layers are a little lower than a box, so boxes overlap those below by half a millimetre.
+/// With this much room at the sides some touch their neighbours, and two of three candidate pairs do not touch.
 pub(crate) const BOXES: DVec3 = DVec3::new(1.035, 0.9995, 1.035);
 
-/// From hull to hull.
+/// Spacing of hulls.
 pub(crate) const HULLS: DVec3 = DVec3::splat(0.93);
 
-/// Different hulls in a heap; the clones share their data.
+/// The number of different hulls in a heap; the clones share their data.
 pub(crate) const DISTINCT: usize = 64;
 
-/// Boxes of 1 m in a pit, layer on layer.
+/// Boxes of 1 m in a pit, layer by layer.
 pub(super) fn boxes(count: usize, seed: u64) -> Replay3 {
     let shape = cuboid(Vec3::splat(0.5));
     heap(count, seed, BOXES, 0.03, |_, random| {
@@ -29,13 +29,13 @@ pub(super) fn boxes(count: usize, seed: u64) -> Replay3 {
     })
 }
 
-/// Hulls of 32 points in a pit, turned anyhow.
+/// Hulls of 32 points in a pit, in random rotations.
 pub(super) fn hulls(count: usize, seed: u64) -> Replay3 {
     let shapes = solids(SolidKind::Hull32, DISTINCT, seed);
     heap(count, seed, HULLS, 0.02, |i, random| (shapes[i % shapes.len()].clone(), random.turn()))
 }
 
-/// A lattice of bodies, about a cube of them, in a pit of a floor and four walls.
+/// A lattice of bodies, roughly a cube, in a pit of a floor and four walls.
 fn heap(
     count: usize,
     seed: u64,
@@ -54,7 +54,7 @@ fn heap(
         let cell = DVec3::new((i % side) as f64, (i / (side * side)) as f64, (i / side % side) as f64);
         let stray = random.within(DVec3::splat(-jitter), DVec3::splat(jitter));
         let middle = cell + DVec3::new(0.5 - 0.5 * side as f64, 0.5, 0.5 - 0.5 * side as f64);
-        // A layer is level: bodies stray sideways.
+        // Bodies stray only sideways, so that layers are level.
         let place = middle * spacing + DVec3::new(stray.x, 0.0, stray.z);
         let (shape, turn) = draw(i, &mut random);
         replay.moving(shape, Motion3::still(place).turned(turn).swaying(TREMBLE, &mut random), None);
@@ -62,15 +62,15 @@ fn heap(
     replay
 }
 
-/// Bodies along an edge of a cube of so many.
+/// The number of bodies along an edge of a cube of so many.
 pub(crate) fn side(count: usize) -> usize {
     (libm::cbrt(count as f64).ceil() as usize).max(1)
 }
 
-/// Boxes that a pit is made of.
+/// The number of boxes that make up a pit.
 pub(crate) const PIT: usize = 5;
 
-/// Half sizes and middles of the floor and the walls of a pit, for what lies in it with such a spacing.
+/// Half extents and centres of the floor and the walls of a pit, for contents with the given spacing.
 pub(crate) fn pit(inside: DVec3, spacing: DVec3) -> [(Vec3, DVec3); PIT] {
     let (half, slack) = (inside * 0.5, spacing * 0.02);
     let floor = Vec3::new(half.x as f32 + 3.0, 1.0, half.z as f32 + 3.0);
@@ -100,7 +100,7 @@ pub(super) fn pyramids(count: usize, seed: u64) -> Replay3 {
     for pyramid in 0..pyramids {
         let z = (pyramid as f64 - 0.5 * (pyramids as f64 - 1.0)) * 4.0;
         for (x, y) in pyramid_places() {
-            // All yaws are nearly equal, so that neighbours are a pair of boxes and not a contact.
+            // Yaws are nearly equal, so that the AABBs of neighbours overlap but the boxes do not touch.
             let turn = Turn::about(DVec3::Y, random.range(0.006, 0.010));
             let motion = Motion3::still(DVec3::new(x, y, z)).turned(turn).swaying(TREMBLE, &mut random);
             replay.moving(shape.clone(), motion, None);
@@ -109,7 +109,8 @@ pub(super) fn pyramids(count: usize, seed: u64) -> Replay3 {
     replay
 }
 
-/// Centres of a pyramid's boxes of 1 m: each sunk into those below by half a millimetre, 26 mm from its neighbours.
+/// Centres of a pyramid's boxes of 1 m: each overlaps those below by half a millimetre and is 26 mm from its
+/// neighbours.
 pub(super) fn pyramid_places() -> impl Iterator<Item = (f64, f64)> {
     (0..PYRAMID.1).flat_map(|row| {
         let wide = PYRAMID.1 - row;
@@ -118,17 +119,17 @@ pub(super) fn pyramid_places() -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Shapes in the air on a loose lattice. Every other one turns, and drifts to and fro.
+/// Shapes in the air on a loose lattice. Every other one rotates, and drifts back and forth.
 pub(super) fn mixed(count: usize, seed: u64) -> Replay3 {
     in_the_air(count, (2, 1.17), seed)
 }
 
-/// The same, further apart: a few touch. One of a hundred turns, and drifts to and fro.
+/// The same, further apart, so that few touch. One of a hundred rotates, and drifts back and forth.
 pub(super) fn spread(count: usize, seed: u64) -> Replay3 {
     in_the_air(count, (100, 1.3), seed)
 }
 
-/// One of so many moves, and cells are so many metres wide.
+/// One of `one_of` bodies moves, and cells are `cell_size` metres wide.
 fn in_the_air(count: usize, (one_of, cell_size): (usize, f64), seed: u64) -> Replay3 {
     let mut random = Random::new(seed ^ 0x313d);
     let kinds = [SolidKind::Box, SolidKind::Hull8, SolidKind::Hull16, SolidKind::Hull32];

@@ -39,7 +39,7 @@ pub(super) fn pyramids(count: usize, seed: u64) -> Replay2 {
     replay
 }
 
-/// Rectangles and polygons in the air on a loose lattice. Every other one turns, and drifts to and fro.
+/// Rectangles and polygons in the air on a loose lattice. Every other one rotates, and drifts back and forth.
 pub(super) fn mixed(count: usize, seed: u64) -> Replay2 {
     let mut random = Random::new(seed ^ 0x3132);
     let kinds = [PlaneKind::Rect, PlaneKind::Poly8, PlaneKind::Poly64];

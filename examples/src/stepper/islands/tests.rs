@@ -8,7 +8,7 @@ fn an_island_sleeps_when_its_last_body_is_calm_and_wakes_as_a_whole() {
         for body in islands.awake.clone() {
             islands.note(body, if restless == Some(body) { 1.0 } else { 0.0 }, 0.3);
         }
-        // 1 - 3 - 4 hang together.
+        // 1, 3 and 4 are one island.
         if islands.awake.contains(&1) {
             islands.join(4, 3);
             islands.join(3, 1);

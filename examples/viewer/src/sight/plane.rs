@@ -60,7 +60,7 @@ impl Sight for Plane {
                 let (along, deep) = (normal.perp() * endless, normal * -endless);
                 form.add_flat(&[-along, deep - along, along + deep, along]);
             }
-            // Lines show it.
+            // These are shown by lines.
             Shape2::Chain(_) | Shape2::Segment(_) => {}
             shape => {
                 let at_rest = Collider2::new(shape.clone()).at(Pose2::IDENTITY);

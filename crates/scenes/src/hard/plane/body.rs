@@ -1,4 +1,4 @@
-//! Pairs in the making: shapes with the rotation that is stored, and how they are brought together.
+//! Pairs under construction: shapes with their rotations as stored, and how they are brought together.
 
 use crate::pairs::PosedPair2;
 use crate::random::Random;
@@ -6,7 +6,7 @@ use asunder_geometry::{Pose2, Rotation2, Shape2};
 use core::f64::consts::TAU;
 use glam::DVec2;
 
-/// A shape with its rotation, as stored: what is placed by it is placed by the true shape.
+/// A shape with its rotation as stored (rounded), so that it is placed by its true outline.
 #[derive(Clone, Debug)]
 pub(super) struct Body2 {
     pub(super) shape: Shape2,
@@ -27,9 +27,9 @@ impl Body2 {
         self.rotation.turn(local)
     }
 
-    /// The furthest point along a unit direction of the world, from the body's position. For a half-plane, its origin.
+    /// The support point in a unit direction of the world, from the body's position. For a half-plane, its origin.
     ///
-    /// The stored matrix turns and, by a rounding, stretches the core; a radius it leaves as it is.
+    /// The stored matrix rotates the core and, by its rounding, stretches it; the radius stays as it is.
     pub(super) fn furthest(&self, axis: DVec2) -> DVec2 {
         let turned = |shape: &Shape2, pose: &Pose2| {
             let core = shape.core();
@@ -47,7 +47,7 @@ impl Body2 {
         found.unwrap_or_default()
     }
 
-    /// From the body's position, in world axes: where the shape's middle is.
+    /// The shape's centre, from the body's position, in world axes.
     pub(super) fn middle(&self) -> DVec2 {
         self.turn(self.shape.center().as_dvec2())
     }
@@ -68,7 +68,7 @@ pub(super) fn rotation(angle: f64) -> Rotation2 {
     Rotation2::new(libm::cos(angle) as f32, libm::sin(angle) as f32).unwrap_or(Rotation2::IDENTITY)
 }
 
-/// The pose, or the identity where there is none: what is drawn here is finite and in range.
+/// The pose, or the identity where it is not valid: the numbers drawn here are finite and in range.
 pub(super) fn pose(position: DVec2, rotation: Rotation2) -> Pose2 {
     Pose2::new(position, rotation).unwrap_or(Pose2::IDENTITY)
 }
@@ -85,20 +85,20 @@ pub(super) fn within(random: &mut Random, reach: f64) -> DVec2 {
     DVec2::new(random.range(-reach, reach), random.range(-reach, reach))
 }
 
-/// A common place of both bodies: the origin, where positions say most, or somewhere in a room.
+/// A place for both bodies: the origin, where positions are most precise, or anywhere within 5 m along each axis.
 pub(super) fn place(random: &mut Random) -> DVec2 {
     if random.unit() < 0.5 { DVec2::ZERO } else { within(random, 5.0) }
 }
 
-/// A finished pair, and what its maker says of it.
+/// A finished pair, and what its generator claims of it.
 #[derive(Clone, Debug)]
 pub(in crate::hard) struct Draft2 {
     pub(in crate::hard) pair: PosedPair2,
-    /// Says how near touching the pair is; held against it in the tests.
+    /// How near touching the pair is; checked by the tests.
     pub(in crate::hard) claim: Option<Claim2>,
 }
 
-/// The gap along a unit axis from A to B is within `within` metres of nothing, and so is the distance.
+/// Claims that the separation along a unit axis from A to B is at most `within` metres in size, and so is the distance.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::hard) struct Claim2 {
     pub(in crate::hard) axis: DVec2,
@@ -106,7 +106,7 @@ pub(in crate::hard) struct Claim2 {
 }
 
 impl Draft2 {
-    /// A pair at two places, of which nothing is claimed.
+    /// A pair at two places, without a claim.
     pub(super) fn placed(a: Body2, b: Body2, at: DVec2, goal: DVec2) -> Self {
         let pair = PosedPair2 {
             pose_a: pose(at, a.rotation),
@@ -117,16 +117,16 @@ impl Draft2 {
         Self { pair, claim: None }
     }
 
-    /// B's point `on_b` comes to lie on A's point `on_a`; then B moves along a unit axis until its furthest point
-    /// against the axis is `gap` metres beyond A's furthest point along it. Points are relative to their body's
-    /// position, in world axes.
+    /// Puts B's point `on_b` on A's point `on_a`, then moves B along a unit axis until B's support point against the
+    /// axis is `gap` metres beyond A's support point along it. Points are relative to their body's position, in world
+    /// axes.
     pub(super) fn meeting(a: (Body2, DVec2), b: (Body2, DVec2), axis: DVec2, gap: f64, at: DVec2) -> Self {
         let ((a, on_a), (b, on_b)) = (a, b);
         let on_top = (a.furthest(axis) - on_a).dot(axis) - (b.furthest(-axis) - on_b).dot(axis);
         Self::placed(a, b, at, at + (on_a - on_b + axis * (on_top + gap))).claiming(axis, gap.abs())
     }
 
-    /// B's furthest point against the axis is put `gap` metres beyond A's furthest point along it.
+    /// Puts B's support point against the axis `gap` metres beyond A's support point along it.
     pub(super) fn beside(a: Body2, b: Body2, axis: DVec2, gap: f64, at: DVec2) -> Self {
         let (on_a, on_b) = (a.furthest(axis), b.furthest(-axis));
         Self::meeting((a, on_a), (b, on_b), axis, gap, at)

@@ -1,4 +1,4 @@
-//! Edges on edges: by ulps, turned, on a grid, stacked.
+//! Edge against edge: off by ulps, rotated, on a grid, stacked.
 
 use super::body::{Body2, Draft2, any_angle, within};
 use super::outlines::{anything, half_extents, outline, rect};
@@ -10,7 +10,7 @@ use glam::DVec2;
 /// Levels of [`edge_ulps`]: at most 256 ulp, 128, and so on down to one.
 pub(super) const ULP_LEVELS: u32 = 9;
 
-/// Two rectangles along the axes; along one axis they touch, a few ulps apart or sunk.
+/// Two axis-aligned rectangles that touch along one axis, with a gap or overlap of a few ulps.
 pub(super) fn edge_ulps(level: u32, random: &mut Random) -> Draft2 {
     let (a, b) = (half_extents(random), half_extents(random));
     let reach = [1.0, 8.0, 1000.0][random.below(3)];
@@ -24,7 +24,7 @@ pub(super) fn edge_ulps(level: u32, random: &mut Random) -> Draft2 {
     let ulp = if random.unit() < 0.3 { f64::from(f32::EPSILON) * 0.5 } else { ulp_of(touching) };
     goal[axis] = touching + side * steps as f64 * ulp;
     let mut within = steps.unsigned_abs() as f64 * ulp;
-    // Every fourth touches with no more than a corner.
+    // A quarter of the pairs touch only at a corner.
     if random.unit() < 0.25 {
         let other = 1 - axis;
         let steps = ulps(ULP_LEVELS - 1 - level, random);
@@ -53,8 +53,8 @@ pub(super) fn on_grid(point: DVec2, parts: f64) -> DVec2 {
     (point * parts).round() / parts
 }
 
-/// Two rectangles under one rotation, edge on edge. The stored cosine and sine are f32s: times extents of few bits,
-/// every product is exact in f64, and so is the place of touching.
+/// Two rectangles under one rotation, edge on edge. The stored cosine and sine are f32, so their products with extents
+/// of few bits are exact in f64, and so is the position at which the rectangles touch.
 pub(super) fn edge_rotated(level: u32, random: &mut Random) -> Draft2 {
     let gap = gap(level, random);
     let turn = Body2::new(rect(DVec2::ONE), any_angle(random)).rotation;
@@ -65,16 +65,16 @@ pub(super) fn edge_rotated(level: u32, random: &mut Random) -> Draft2 {
     local[axis] = side * (a[axis] + b[axis]);
     let size = a.length() + b.length();
     let (a, b) = (Body2::turned(rect(a), turn), Body2::turned(rect(b), turn));
-    // The stored matrix is as long as one up to rounding; a normal is not.
+    // The stored matrix keeps lengths only up to rounding; the normal must have length 1.
     let normal = a.turn(along(axis, side)).normalize();
     let at = if random.unit() < 0.5 { DVec2::ZERO } else { on_grid(within(random, 4.0), 256.0) };
     let goal = at + a.turn(local) + normal * (gap * size);
     Draft2::placed(a, b, at, goal).claiming(normal, gap.abs() * size)
 }
 
-/// Two rectangles of a grid that share an edge, a corner or more, exactly, turned by quarter turns.
+/// Two rectangles on a grid that exactly share an edge, a corner or more, rotated by quarter turns.
 pub(super) fn coincident_edges(level: u32, random: &mut Random) -> Draft2 {
-    // Extents that are no dyadic numbers at level 2; as f32s, their sums are exact in f64 all the same.
+    // At level 2 the extents are not dyadic; but they are f32, so their sums are still exact in f64.
     let unit = if level < 2 { 0.125 } else { f64::from([0.1_f32, 0.3, 0.7, 1.1][random.below(4)]) * 0.25 };
     let mut extents =
         || DVec2::new([1.0, 2.0, 4.0][random.below(3)], [1.0, 2.0, 4.0][random.below(3)]) * unit;
@@ -99,7 +99,7 @@ pub(super) fn coincident_edges(level: u32, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, at + offset).claiming(along(axis, side), 0.0)
 }
 
-/// Courses of rectangles whose heights are tenths: places add up in f64, or in f32, and extents are f32s.
+/// Courses of rectangles whose heights are multiples of 0.1: positions are summed in f64 or f32, and extents are f32.
 pub(super) fn stack(level: u32, random: &mut Random) -> Draft2 {
     let tenths = |random: &mut Random| (1 + random.below(9)) as f64 * 0.1;
     let half = |random: &mut Random| (DVec2::new(tenths(random), tenths(random)) * 0.5).as_vec2().as_dvec2();
@@ -124,7 +124,7 @@ pub(super) fn stack(level: u32, random: &mut Random) -> Draft2 {
         .claiming(DVec2::Y, 2e-7 * height.max(1.0))
 }
 
-/// One shape twice, in one pose or nearly.
+/// The same shape twice, in the same or nearly the same pose.
 pub(super) fn identical(level: u32, random: &mut Random) -> Draft2 {
     let shape: Shape2 = if random.unit() < 0.5 { anything(1.0, random) } else { outline(1.0, random) };
     let angle = if random.unit() < 0.3 { 0.0 } else { any_angle(random) };

@@ -1,4 +1,4 @@
-//! Vertices and edges brought together: the twin of what is done in space.
+//! Vertices and edges brought into contact: the twin of the module for space.
 
 use super::body::{Body2, Draft2, any_angle, direction, place, size};
 use super::outlines::{outline, rect, ring};
@@ -7,7 +7,7 @@ use crate::random::Random;
 use asunder_geometry::Shape2;
 use glam::DVec2;
 
-/// What two bodies touch with.
+/// The kind of feature with which a body touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
     Vertex,
@@ -20,7 +20,7 @@ impl Kind {
     }
 }
 
-/// A point of a shape's core, and a unit direction in which the core reaches no further; in local axes.
+/// A point of a shape's core, and a unit direction in which the core is supported there; in local axes.
 #[derive(Clone, Copy, Debug)]
 struct Feature {
     kind: Kind,
@@ -28,7 +28,7 @@ struct Feature {
     axis: DVec2,
 }
 
-/// Shapes without edges give a vertex; the edge of a half-plane is its line.
+/// A shape without edges gives a vertex; the edge of a half-plane is its boundary line.
 fn feature(shape: &Shape2, kind: Kind, random: &mut Random) -> Feature {
     if let Shape2::HalfPlane(half_plane) = shape {
         return Feature { kind: Kind::Edge, point: DVec2::ZERO, axis: half_plane.unit_normal() };
@@ -51,14 +51,14 @@ fn feature(shape: &Shape2, kind: Kind, random: &mut Random) -> Feature {
     Feature { kind: Kind::Vertex, point: shape.support(axis).unwrap_or_default(), axis }
 }
 
-/// Where A stands, and by how many radians the features look past each other.
+/// Where A is placed, and the angle in radians by which the features' directions are misaligned.
 #[derive(Clone, Copy)]
 struct Stance {
     at: DVec2,
     tilt: f64,
 }
 
-/// A feature of A on a feature of B, `gap` of their size apart. Half-planes add nothing to the size.
+/// A feature of A on a feature of B, apart by `gap` times their size, to which half-planes add nothing.
 fn met(a: (Shape2, Kind), b: (Shape2, Kind), gap: f64, stance: Stance, random: &mut Random) -> Draft2 {
     let (on_a, on_b) = (feature(&a.0, a.1, random), feature(&b.0, b.1, random));
     let angle_a = if random.unit() < 0.3 { 0.0 } else { any_angle(random) };
@@ -73,19 +73,19 @@ fn met(a: (Shape2, Kind), b: (Shape2, Kind), gap: f64, stance: Stance, random: &
     Draft2::meeting((a, point_a), (b, point_b), axis.normalize(), gap, stance.at)
 }
 
-/// A feature of A on a feature of B, `gap` of their size apart.
+/// A feature of A on a feature of B, apart by `gap` times their size.
 pub(super) fn contact(a: (Shape2, Kind), b: (Shape2, Kind), gap: f64, random: &mut Random) -> Draft2 {
     let at = place(random);
     met(a, b, gap, Stance { at, tilt: 0.0 }, random)
 }
 
-/// Two shapes that touch with anything.
+/// Two shapes that touch with random features.
 pub(super) fn any_contact(a: Shape2, b: Shape2, gap: f64, random: &mut Random) -> Draft2 {
     let at = place(random);
     any_contact_at(a, b, gap, at, random)
 }
 
-/// As [`any_contact`], with A at a place.
+/// As [`any_contact`], with A at a given place.
 pub(super) fn any_contact_at(a: Shape2, b: Shape2, gap: f64, at: DVec2, random: &mut Random) -> Draft2 {
     let kinds = [Kind::any(random), Kind::any(random)];
     met((a, kinds[0]), (b, kinds[1]), gap, Stance { at, tilt: 0.0 }, random)
@@ -106,11 +106,11 @@ pub(super) fn vertex_vertex(level: u32, random: &mut Random) -> Draft2 {
 /// Angles between the edges of [`parallel_edges`], by level.
 pub(super) const ANGLES: [f64; 8] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0];
 
-/// An edge on an edge, at a small angle or none.
+/// An edge along an edge, at a small or zero angle.
 pub(super) fn parallel_edges(level: u32, random: &mut Random) -> Draft2 {
     let angle = ANGLES[level.min(7) as usize] * sign(random);
     let gap = any_gap(random);
-    // A rotation of f32 says angles to 6e-8; next to the identity its sine says any.
+    // An f32 rotation resolves angles to 6e-8; near the identity its sine resolves any.
     if level > 3 || random.unit() < 0.3 {
         let half = |random: &mut Random| super::outlines::half_extents(random);
         let (a, b) = (Body2::new(rect(half(random)), 0.0), Body2::new(rect(half(random)), angle));
@@ -134,7 +134,7 @@ pub(super) fn parallel_edges(level: u32, random: &mut Random) -> Draft2 {
 /// Sides of [`polygons`], by level.
 pub(super) const SIDES: [usize; 8] = [3, 5, 8, 16, 64, 256, 1024, 4096];
 
-/// Polygons of many sides, near touching.
+/// Polygons of many sides, nearly touching.
 pub(super) fn polygons(level: u32, random: &mut Random) -> Draft2 {
     let sides = SIDES[level.min(7) as usize];
     let gap = any_gap(random);

@@ -1,4 +1,4 @@
-//! The rest: inside each other, thin, round, on lines, of parts, drifted, resting, anyhow.
+//! The other families: deep overlap, thin and round shapes, lines, compounds, drifted rotations, rest, random pairs.
 
 use super::body::{Body2, Draft2, any_angle, direction, place, pose, size, within};
 use super::edges::on_grid;
@@ -11,7 +11,7 @@ use crate::random::Random;
 use asunder_geometry::{Compound2, HalfPlane, Pose2, Rotation2, Shape2};
 use glam::{DVec2, Vec2};
 
-/// One within the other, or their middles near each other.
+/// One shape within the other, or their centres near each other.
 pub(super) fn deep(level: u32, random: &mut Random) -> Draft2 {
     let width = [1.0, 0.3][random.below(2)];
     let (a, b) = (anything(1.0, random), anything(width, random));
@@ -24,17 +24,17 @@ pub(super) fn deep(level: u32, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, at + offset)
 }
 
-/// Widths of what is 1 m long, by level.
+/// Widths of shapes about 1 m long, by level.
 const WIDTHS: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// Long and thin shapes across and beside each other.
+/// Long and thin shapes, across and beside each other.
 pub(super) fn needles(level: u32, random: &mut Random) -> Draft2 {
     let width = WIDTHS[level.min(4) as usize];
     let needle = |random: &mut Random| {
         let (length, width) = (random.range(0.4, 0.8), width * random.range(0.5, 1.0));
         match random.below(3) {
             0 => rect(DVec2::new(length, width)),
-            // What is round by itself has at least this radius.
+            // Round shapes get at least this radius.
             1 => capsule(DVec2::X * length, DVec2::X * -length, width.max(1.01e-6)),
             _ => {
                 let middle = random.range(-0.5, 0.5) * length;
@@ -50,14 +50,14 @@ pub(super) fn needles(level: u32, random: &mut Random) -> Draft2 {
     any_contact(a, b, gap, random)
 }
 
-/// Segments against everything, crossing, in line and side by side.
+/// Segments against everything: crossing, collinear and side by side.
 pub(super) fn segments(level: u32, random: &mut Random) -> Draft2 {
     let gap = gap(level, random);
     let half = direction(any_angle(random)) * random.range(0.2, 0.6);
     let middle = within(random, 0.3);
     let a = segment(middle - half, middle + half);
     if random.unit() < 0.3 {
-        // In line: one direction of few bits for both, under one rotation.
+        // Collinear: one direction of few bits for both, under one rotation.
         let along = [DVec2::X, DVec2::new(3.0, -1.0) * 0.25][random.below(2)];
         let angle = any_angle(random);
         let body = |half: f64| Body2::new(segment(along * -half, along * half), angle);
@@ -74,11 +74,11 @@ pub(super) fn segments(level: u32, random: &mut Random) -> Draft2 {
     any_contact(a, b, gap, random)
 }
 
-/// Levels of [`points_and_balls`]: at most 128 ulps around exact contacts, and so on down to none.
+/// Levels of [`points_and_balls`]: at most 128 ulps off exact contacts, halved at each further level, none at the last.
 pub(super) const BALL_LEVELS: u32 = 9;
 
-/// Circles, capsules and rounded rectangles whose centres, ends or corners are a whole distance apart, or ulps from
-/// it. Not turned: a stored rotation in the plane has no whole length.
+/// Circles, capsules and rounded rectangles whose centres, ends or corners are an exact distance apart, or ulps from
+/// it. Not rotated: in the plane a stored rotation has no exact length.
 pub(super) fn points_and_balls(level: u32, random: &mut Random) -> Draft2 {
     if random.unit() < 0.3 {
         let radius = random.log_range(1e-4, 0.3);
@@ -107,7 +107,7 @@ pub(super) fn points_and_balls(level: u32, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, goal).claiming(offset.normalize(), (goal[moved] - before).abs())
 }
 
-/// Something with a rounded corner that looks in a direction, and where the corner is.
+/// A shape with a round end or corner in a given direction, and the centre of that rounding.
 fn ball(radius: f64, towards: DVec2, grid: f64, random: &mut Random) -> (Shape2, DVec2) {
     let mut whole = || (1 + random.below(8)) as f64 * grid;
     let half = DVec2::new(whole(), whole());
@@ -123,7 +123,7 @@ fn ball(radius: f64, towards: DVec2, grid: f64, random: &mut Random) -> (Shape2,
     }
 }
 
-/// Everything on half-planes with tilted normals, rounded things too; and half-planes back to back.
+/// Everything, also rounded shapes, on half-planes with tilted normals; and half-planes back to back.
 pub(super) fn half_plane(level: u32, random: &mut Random) -> Draft2 {
     let gap = gap(level, random);
     let normal = match random.below(4) {
@@ -146,7 +146,7 @@ pub(super) fn half_plane(level: u32, random: &mut Random) -> Draft2 {
     contact((plane(normal), Kind::Edge), (b, kind), gap, random)
 }
 
-/// Compounds of squares on a grid, in one rotation, part on part or part in a notch, by ulps; and of anything.
+/// Compounds of squares on a grid, under one rotation, part on part or part in a notch, by ulps; and of random shapes.
 pub(super) fn compounds(level: u32, random: &mut Random) -> Draft2 {
     if random.unit() < 0.4 {
         return scattered(random);
@@ -166,7 +166,7 @@ pub(super) fn compounds(level: u32, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, goal)
 }
 
-/// Two to six cells in a row, a bend or anyhow, each a square of its own, turned by quarter turns.
+/// Two to six cells in a row, a bend or at random, each a square of its own, rotated by quarter turns.
 fn notched(cell: f64, random: &mut Random) -> Shape2 {
     let parts: Vec<(Pose2, Shape2)> = (0..2 + random.below(5))
         .map(|i| {
@@ -180,7 +180,7 @@ fn notched(cell: f64, random: &mut Random) -> Shape2 {
     Compound2::new(parts).map_or_else(|_| plain(), Shape2::from)
 }
 
-/// Compounds of anything anyhow, brought near along an axis.
+/// Compounds of random shapes at random, brought near touching along an axis.
 fn scattered(random: &mut Random) -> Draft2 {
     let compound = |random: &mut Random| {
         let parts: Vec<(Pose2, Shape2)> = (0..1 + random.below(5))
@@ -200,10 +200,10 @@ fn scattered(random: &mut Random) -> Draft2 {
     Draft2::beside(a, b, axis, gap, place(random))
 }
 
-/// How many products the rotations of [`drifted`] have behind them, by level.
+/// How many products the rotations of [`drifted`] are made of, by level.
 const PRODUCTS: [u32; 4] = [10, 100, 1_000, 10_000];
 
-/// Rotations that are f32 products of f32 rotations, thousands of them; only their constructor normalises them.
+/// Rotations that are products in f32 of up to thousands of f32 rotations; only their constructor normalises them.
 pub(super) fn drifted(level: u32, random: &mut Random) -> Draft2 {
     let products = PRODUCTS[level.min(3) as usize];
     let gap = any_gap(random);
@@ -217,7 +217,7 @@ pub(super) fn drifted(level: u32, random: &mut Random) -> Draft2 {
     Draft2::beside(a, b, axis, gap, place(random))
 }
 
-/// A product of so many rotations by up to 0.1 rad, each a little long or a little short.
+/// A product of so many rotations by up to 0.1 rad, each a little longer or shorter than 1.
 fn drift(products: u32, random: &mut Random) -> Rotation2 {
     let start = direction(any_angle(random));
     let (mut cos, mut sin) = (start.x as f32, start.y as f32);
@@ -230,10 +230,10 @@ fn drift(products: u32, random: &mut Random) -> Rotation2 {
     Rotation2::new(cos, sin).unwrap_or_default()
 }
 
-/// Shares of size by which [`resting`] bodies are sunk at most, by level.
+/// The greatest depth of [`resting`] bodies as a share of their size, by level.
 const SUNK: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 
-/// Bodies at rest on each other, edge on edge, a little sunk.
+/// Bodies at rest on each other, edge on edge, with a small overlap.
 pub(super) fn resting(level: u32, random: &mut Random) -> Draft2 {
     let sunk = SUNK[level.min(4) as usize] * random.range(0.3, 1.0);
     let a = if random.unit() < 0.3 { rect(DVec2::new(4.0, 0.5)) } else { outline(1.0, random) };
@@ -241,7 +241,7 @@ pub(super) fn resting(level: u32, random: &mut Random) -> Draft2 {
     contact((a, Kind::Edge), (b, Kind::Edge), -sunk, random)
 }
 
-/// Anything anywhere near: the easy control.
+/// Random shapes near each other: the easy control.
 pub(super) fn random_pair(_level: u32, random: &mut Random) -> Draft2 {
     let (a, b) = (anything(1.0, random), anything(1.0, random));
     let (a, b) = (Body2::new(a, any_angle(random)), Body2::new(b, any_angle(random)));

@@ -1,4 +1,4 @@
-//! Shapes in the plane, with a plain one where a constructor refuses.
+//! Shapes in the plane; where a constructor rejects one, a plain shape takes its place.
 
 use crate::pairs;
 use crate::random::Random;
@@ -6,7 +6,7 @@ use asunder_geometry::{Capsule2, Circle, Polygon, Rect, Segment2, Shape2};
 use core::f64::consts::TAU;
 use glam::{DVec2, Vec2};
 
-/// What takes the place of a shape that was refused.
+/// The shape that replaces a rejected one.
 pub(super) fn plain() -> Shape2 {
     pairs::rect(Vec2::splat(0.5))
 }
@@ -31,7 +31,7 @@ pub(super) fn segment(from: DVec2, to: DVec2) -> Shape2 {
     Segment2::new(from.as_vec2(), to.as_vec2()).map_or_else(|_| plain(), Shape2::from)
 }
 
-/// The same shape with everything within a radius of it; shapes that carry no rounding as they are.
+/// The same shape, rounded: grown by a radius. A shape that cannot be rounded stays as it is.
 pub(super) fn rounded(shape: Shape2, radius: f64) -> Shape2 {
     let grown = match &shape {
         Shape2::Rect(rect) => rect.rounded(radius as f32).ok().map(Shape2::from),
@@ -45,7 +45,7 @@ pub(super) fn half_extents(random: &mut Random) -> DVec2 {
     DVec2::new(random.range(0.3, 0.6), random.range(0.3, 0.6)).as_vec2().as_dvec2()
 }
 
-/// The hull of so many points around an ellipse about `width` metres wide, at angles that are even up to a part of
+/// The hull of so many points around an ellipse about `width` metres wide, at equal angles or jittered by a share of
 /// their spacing.
 pub(super) fn ring(count: usize, width: f64, random: &mut Random) -> Shape2 {
     let half = half_extents(random) * width;

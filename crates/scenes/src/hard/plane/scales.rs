@@ -1,4 +1,4 @@
-//! Far away, tiny, huge, unequal, scaled, and next to nothing.
+//! Scales: far away, tiny, huge, unequal, scaled by powers of two, and denormal.
 
 use super::body::{Body2, Draft2, any_angle, direction, within};
 use super::edges::{along, on_grid};
@@ -16,7 +16,7 @@ pub(super) const FAR_LEVELS: u32 = 8;
 
 const REACH: [f64; FAR_LEVELS as usize] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// A contact far from the origin. Every fourth at the last level has a position at the very limit.
+/// A contact far from the origin. A quarter of those at the last level have a position at the very limit.
 pub(super) fn far(level: u32, random: &mut Random) -> Draft2 {
     let reach = REACH[level.min(FAR_LEVELS - 1) as usize];
     if random.unit() < 0.3 {
@@ -33,7 +33,7 @@ pub(super) fn far(level: u32, random: &mut Random) -> Draft2 {
     moved(draft, shift)
 }
 
-/// The pair elsewhere: A at a place, B where it was from A, as near as positions go.
+/// The pair moved: A to a place, B to its old offset from A, as far as positions can represent it.
 fn moved(draft: Draft2, to: DVec2) -> Draft2 {
     let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = draft.pair;
     let to = to.clamp(DVec2::splat(-MAX_POSITION), DVec2::splat(MAX_POSITION));
@@ -47,7 +47,7 @@ fn moved(draft: Draft2, to: DVec2) -> Draft2 {
     }
 }
 
-/// Rectangles on a grid of 2^-20 m, edge on edge, or a step of position from it.
+/// Rectangles on a grid of 2^-20 m, edge on edge, or a step of position off that.
 fn far_bricks(reach: f64, random: &mut Random) -> Draft2 {
     let grid = libm::exp2(20.0);
     let (a, b) = (on_grid(half_extents(random), grid), on_grid(half_extents(random), grid));
@@ -60,10 +60,10 @@ fn far_bricks(reach: f64, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, at + offset).claiming(along(axis, side), 4.0 * step)
 }
 
-/// Ratios of size of [`size_ratio`], by level.
+/// Size ratios of [`size_ratio`], by level.
 const RATIOS: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// A small thing on a large one. Gaps are shares of the large one's size or of the small one's.
+/// A small shape on a large one. Gaps are shares of the size of either.
 pub(super) fn size_ratio(level: u32, random: &mut Random) -> Draft2 {
     let ratio = RATIOS[level.min(5) as usize];
     let large = random.log_range(1.0, 1e4) * 10.0;
@@ -74,11 +74,11 @@ pub(super) fn size_ratio(level: u32, random: &mut Random) -> Draft2 {
     any_contact(a, b, gap, random)
 }
 
-/// Widths of [`tiny`] and [`huge`], by level but the last.
+/// Widths of [`tiny`] and [`huge`], by level except the last.
 const TINY: [f64; 3] = [1e-3, 1e-4, 1e-5];
 const HUGE: [f64; 3] = [1e3, 1e4, 1e5];
 
-/// Pebbles down to the smallest that there may be.
+/// Small shapes, down to the smallest allowed.
 pub(super) fn tiny(level: u32, random: &mut Random) -> Draft2 {
     let gap = any_gap(random);
     let one = |random: &mut Random| match TINY.get(level as usize) {
@@ -87,11 +87,11 @@ pub(super) fn tiny(level: u32, random: &mut Random) -> Draft2 {
     };
     let (a, b) = (one(random), one(random));
     let draft = any_contact_at(a, b, gap, DVec2::ZERO, random);
-    // Most near the origin: 5 m away one step of a position is a billionth of the size.
+    // Mostly near the origin: 5 m away, one step of a position is a billionth of the size.
     if random.unit() < 0.7 { draft } else { moved(draft, direction(any_angle(random)) * 5.0) }
 }
 
-/// A shape at the least bounding radius, 1e-6 m, or hardly above.
+/// A shape with the least bounding radius, 1e-6 m, or hardly more.
 fn least(random: &mut Random) -> Shape2 {
     match random.below(3) {
         0 => circle(1e-6),
@@ -100,7 +100,7 @@ fn least(random: &mut Random) -> Shape2 {
     }
 }
 
-/// Mountains up to the largest that there may be.
+/// Large shapes, up to the largest allowed.
 pub(super) fn huge(level: u32, random: &mut Random) -> Draft2 {
     let gap = any_gap(random);
     let one = |random: &mut Random| match HUGE.get(level as usize) {
@@ -125,7 +125,7 @@ fn greatest(random: &mut Random) -> Shape2 {
 /// Exponents of two of [`scaled`], by level.
 const POWERS: [f64; 4] = [3.0, 8.0, 13.0, 17.0];
 
-/// A contact of bodies about 1 m wide, scaled in every number by a power of two.
+/// A contact of bodies about 1 m wide, with every number scaled by a power of two.
 pub(super) fn scaled(level: u32, random: &mut Random) -> Draft2 {
     let factor = libm::exp2(POWERS[level.min(3) as usize] * sign(random));
     let gap = any_gap(random);
@@ -150,7 +150,7 @@ fn times(shape: &Shape2, factor: f32) -> Shape2 {
     polygon(&points)
 }
 
-/// Numbers next to nothing: in places, in vertices, in rotations.
+/// Numbers next to zero: in positions, vertices and rotations.
 pub(super) fn denormal(level: u32, random: &mut Random) -> Draft2 {
     let at = nothing(random);
     match level {
@@ -204,7 +204,7 @@ fn speck(random: &mut Random) -> Shape2 {
     polygon(points.get(..count).unwrap_or(&points))
 }
 
-/// A rotation by next to nothing, or by a quarter turn and next to nothing.
+/// A rotation by almost nothing, or by a quarter turn and almost nothing.
 fn hardly(random: &mut Random) -> Rotation2 {
     let small = [1e-20_f32, 1e-30, 1e-38, 1e-42, 1.5e-45][random.below(5)] * sign(random) as f32;
     let (cos, sin) = if random.unit() < 0.5 { (1.0, small) } else { (small, 1.0) };

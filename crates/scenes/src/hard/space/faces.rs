@@ -1,4 +1,4 @@
-//! Faces on faces: by ulps, turned, on a grid, stacked.
+//! Face against face: off by ulps, rotated, on a grid, stacked.
 
 use super::body::{Body3, Draft3};
 use super::solids::{anything, brick, cuboid, solid};
@@ -10,7 +10,7 @@ use glam::{DVec3, Quat};
 /// Levels of [`face_ulps`]: at most 256 ulp, 128, and so on down to one.
 pub(super) const ULP_LEVELS: u32 = 9;
 
-/// Two bricks whose sides have an axis each; along one axis they touch, a few ulps apart or sunk.
+/// Two axis-aligned bricks that touch along one axis, with a gap or overlap of a few ulps.
 pub(super) fn face_ulps(level: u32, random: &mut Random) -> Draft3 {
     let half = |random: &mut Random| random.within(DVec3::splat(0.3), DVec3::splat(0.6)).as_vec3().as_dvec3();
     let (a, b) = (half(random), half(random));
@@ -26,7 +26,7 @@ pub(super) fn face_ulps(level: u32, random: &mut Random) -> Draft3 {
     let ulp = if in_f32 { f64::from(f32::EPSILON) * 0.5 } else { ulp_of(touching) };
     goal[axis] = touching + side * steps as f64 * ulp;
     let mut within = steps.unsigned_abs() as f64 * ulp;
-    // Every fourth touches with no more than an edge.
+    // A quarter of the pairs touch only along an edge.
     if random.unit() < 0.25 {
         let other = (axis + 1) % 3;
         let steps = ulps(ULP_LEVELS - 1 - level, random);
@@ -48,8 +48,8 @@ pub(super) fn on_grid(point: DVec3, parts: f64) -> DVec3 {
     (point * parts).round() / parts
 }
 
-/// Two bricks under one rotation, face on face. Every other rotation is a quaternion of small whole numbers, and the
-/// bricks are such that the place of touching is a number exactly.
+/// Two bricks under one rotation, face on face. Half of the rotations are quaternions of small whole numbers, with
+/// bricks such that the position at which they touch is exact.
 pub(super) fn face_rotated(level: u32, random: &mut Random) -> Draft3 {
     let gap = gap(level, random);
     if random.unit() < 0.5 {
@@ -62,14 +62,14 @@ pub(super) fn face_rotated(level: u32, random: &mut Random) -> Draft3 {
     face_to_face([rotation; 2], square / 4096.0, gap, random)
 }
 
-/// A quaternion of small whole numbers: over its squared length, its matrix is one of whole numbers.
+/// A quaternion of small whole numbers: its matrix consists of whole numbers divided by its squared length.
 pub(super) fn whole_rotation(random: &mut Random) -> [f64; 4] {
     let mut part = || random.below(9) as f64 - 4.0;
     let q = [part(), part(), part(), part()];
     if q == [0.0; 4] { [1.0, 2.0, 3.0, 4.0] } else { q }
 }
 
-/// Bricks whose extents and places are whole multiples of `grid` in their own axes, the same for both.
+/// Bricks whose extents and offsets are whole multiples of `grid` in their own axes, which are the same for both.
 fn face_to_face(rotations: [Quat; 2], grid: f64, gap: f64, random: &mut Random) -> Draft3 {
     let snap = |v: DVec3| (v / grid).round().max(DVec3::ONE) * grid;
     let (a, b) = (
@@ -85,7 +85,7 @@ fn face_to_face(rotations: [Quat; 2], grid: f64, gap: f64, random: &mut Random) 
     along[axis] = side;
     let size = a.length() + b.length();
     let (a, b) = (Body3::turned(cuboid(a), rotations[0]), Body3::turned(cuboid(b), rotations[1]));
-    // In whole numbers first: the division by the squared length is exact then.
+    // In whole numbers first, so that the division by the squared length is exact.
     let offset = a.turn_whole(local, grid);
     let axis = a.turn(along);
     let at = if random.unit() < 0.5 {
@@ -96,9 +96,9 @@ fn face_to_face(rotations: [Quat; 2], grid: f64, gap: f64, random: &mut Random) 
     Draft3::placed(a, b, at, at + offset + axis * (gap * size)).claiming(axis, gap.abs() * size)
 }
 
-/// Two bricks of a grid that share a face, an edge, a corner or more, exactly.
+/// Two bricks on a grid that exactly share a face, an edge, a corner or more.
 pub(super) fn coincident_faces(level: u32, random: &mut Random) -> Draft3 {
-    // Extents that are no dyadic numbers from level 2 on; as f32s, their sums are exact in f64 all the same.
+    // From level 2 on the extents are not dyadic; but they are f32, so their sums are still exact in f64.
     let unit = if level < 2 { 0.125 } else { f64::from([0.1_f32, 0.3, 0.7, 1.1][random.below(4)]) * 0.25 };
     let mut extents = || DVec3::new(1.0, 1.0, 1.0).map(|_| unit * [1.0, 2.0, 4.0][random.below(3)]);
     let (a, b) = (extents(), extents());
@@ -120,7 +120,7 @@ pub(super) fn coincident_faces(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, at + offset).claiming(along, 0.0)
 }
 
-/// How far a brick turned by quarter turns reaches along the axes of the world.
+/// The half extents along the world's axes of a brick rotated by quarter turns.
 fn upright(body: &Body3) -> DVec3 {
     let half = match &body.shape {
         Shape3::Cuboid(cuboid) => cuboid.half_extents().as_dvec3(),
@@ -130,7 +130,7 @@ fn upright(body: &Body3) -> DVec3 {
     rounded(DVec3::X) * half.x + rounded(DVec3::Y) * half.y + rounded(DVec3::Z) * half.z
 }
 
-/// A rotation that takes axes to axes: in whole numbers, or with components such as 0.70710677 from level 2 on.
+/// A rotation that maps axes to axes: in whole numbers, or with components such as 0.70710677 from level 2 on.
 fn quarter(level: u32, random: &mut Random) -> Quat {
     let (one, other) = (random.below(4), random.below(4));
     let length = if level < 2 { 1.0 } else { f32::sqrt(0.5) };
@@ -143,7 +143,7 @@ fn quarter(level: u32, random: &mut Random) -> Quat {
     Quat::from_array(q)
 }
 
-/// Courses of bricks whose heights are tenths: places add up in f64, or in f32, and extents are f32s.
+/// Courses of bricks whose heights are multiples of 0.1: positions are summed in f64 or f32, and extents are f32.
 pub(super) fn stack(level: u32, random: &mut Random) -> Draft3 {
     let tenth = |random: &mut Random, least: usize| (least + random.below(9)) as f64 * 0.1;
     let half = |random: &mut Random| {
@@ -172,7 +172,7 @@ pub(super) fn stack(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, goal).claiming(DVec3::Y, 2e-7 * height.max(1.0))
 }
 
-/// One shape twice, in one pose or nearly.
+/// The same shape twice, in the same or nearly the same pose.
 pub(super) fn identical(level: u32, random: &mut Random) -> Draft3 {
     let shape = match random.below(3) {
         0 => anything(1.0, random),
@@ -192,7 +192,7 @@ pub(super) fn identical(level: u32, random: &mut Random) -> Draft3 {
             }
         }
     }
-    // The same rotation written differently.
+    // The same rotation as another multiple of its quaternion.
     let factor = [1.0, 1.0, -1.0, 2.0, -0.25][random.below(5)];
     let again = Quat::from_array(rotation.to_array().map(|part| part * factor));
     let (a, b) = (Body3::turned(shape.clone(), rotation), Body3::turned(shape, again));

@@ -1,4 +1,4 @@
-//! The rest: inside each other, on planes, of parts, drifted, resting, anyhow.
+//! The other families: deep overlap, half-spaces, compounds, drifted rotations, rest, random pairs.
 
 use super::body::{Body3, Draft3, place, size};
 use super::faces::on_grid;
@@ -10,7 +10,7 @@ use crate::turn::{Turn, unit};
 use asunder_geometry::{Compound3, HalfSpace, Pose3, Shape3};
 use glam::{DVec3, Quat};
 
-/// One within the other, or their middles near each other.
+/// One shape within the other, or their centres near each other.
 pub(super) fn deep(level: u32, random: &mut Random) -> Draft3 {
     let (a, b) = match random.below(3) {
         0 => (anything(1.0, random), anything(1.0, random)),
@@ -26,7 +26,7 @@ pub(super) fn deep(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, at + offset)
 }
 
-/// Everything on half-spaces with tilted normals, rounded things too; and half-spaces back to back.
+/// Everything, also rounded shapes, on half-spaces with tilted normals; and half-spaces back to back.
 pub(super) fn half_space(level: u32, random: &mut Random) -> Draft3 {
     let gap = gap(level, random);
     let normal = tilted(random);
@@ -46,7 +46,7 @@ pub(super) fn half_space(level: u32, random: &mut Random) -> Draft3 {
     contact((plane(normal), Kind::Face), (b, kind), gap, random)
 }
 
-/// A normal of any length: an axis, small whole numbers, or anything.
+/// A normal of any length: an axis, small whole numbers, or a random direction.
 fn tilted(random: &mut Random) -> DVec3 {
     match random.below(4) {
         0 => DVec3::Y,
@@ -56,7 +56,7 @@ fn tilted(random: &mut Random) -> DVec3 {
     }
 }
 
-/// Compounds of bricks on a grid, in one rotation, part on part or part in a notch, by ulps.
+/// Compounds of bricks on a grid, under one rotation, part on part or part in a notch, by ulps; and of random shapes.
 pub(super) fn compounds(level: u32, random: &mut Random) -> Draft3 {
     if random.unit() < 0.4 {
         return scattered(random);
@@ -68,7 +68,7 @@ pub(super) fn compounds(level: u32, random: &mut Random) -> Draft3 {
         if random.unit() < 0.5 { notched(cell, random) } else { cuboid(DVec3::splat(cell)) },
     );
     let (a, b) = (Body3::new(a, rotation), Body3::new(b, rotation));
-    // Whole cells apart: some touch by faces, some by edges, some share cells.
+    // Offset by whole cells: some touch by faces, some by edges, some share cells.
     let mut cells = || (random.below(9) as f64 - 4.0) * cell;
     let offset = a.turn(DVec3::new(cells(), cells(), cells()));
     let at = on_grid(random.within(DVec3::splat(-4.0), DVec3::splat(4.0)), 64.0);
@@ -79,7 +79,7 @@ pub(super) fn compounds(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, goal)
 }
 
-/// Two to six cells in a row, a bend or anyhow, each a brick of its own, turned by quarter turns.
+/// Two to six cells in a row, a bend or at random, each a brick of its own, rotated by quarter turns.
 fn notched(cell: f64, random: &mut Random) -> Shape3 {
     let parts: Vec<(Pose3, Shape3)> = (0..2 + random.below(5))
         .map(|i| {
@@ -93,7 +93,7 @@ fn notched(cell: f64, random: &mut Random) -> Shape3 {
     Compound3::new(parts).map_or_else(|_| plain(), Shape3::from)
 }
 
-/// Compounds of anything anyhow, brought near along an axis.
+/// Compounds of random shapes at random, brought near touching along an axis.
 fn scattered(random: &mut Random) -> Draft3 {
     let compound = |random: &mut Random| {
         let parts: Vec<(Pose3, Shape3)> = (0..1 + random.below(5))
@@ -112,10 +112,10 @@ fn scattered(random: &mut Random) -> Draft3 {
     Draft3::beside(a, b, random.direction(), gap, place(random))
 }
 
-/// How many products the rotations of [`drifted`] have behind them, by level.
+/// How many products the rotations of [`drifted`] are made of, by level.
 const PRODUCTS: [u32; 4] = [10, 100, 1_000, 10_000];
 
-/// Rotations that are f32 products of f32 rotations, thousands of them, never normalised.
+/// Rotations that are products in f32 of up to thousands of f32 rotations, never normalised.
 pub(super) fn drifted(level: u32, random: &mut Random) -> Draft3 {
     let products = PRODUCTS[level.min(3) as usize];
     let gap = any_gap(random);
@@ -130,7 +130,7 @@ pub(super) fn drifted(level: u32, random: &mut Random) -> Draft3 {
     }
     let (a, b) = (Body3::turned(a, one), Body3::turned(b, drift(products, random)));
     let gap = gap * size(&a, &b);
-    // Along a face of A, or along anything.
+    // Along a face's normal of A, or along a random direction.
     let axis = match a.shape.core().normals().first() {
         Some(&normal) if random.unit() < 0.5 => unit(a.turn(normal)),
         _ => random.direction(),
@@ -138,7 +138,7 @@ pub(super) fn drifted(level: u32, random: &mut Random) -> Draft3 {
     Draft3::beside(a, b, axis, gap, place(random))
 }
 
-/// A product of so many rotations by up to 0.1 rad. Each is a little long or a little short, so that the product's
+/// A product of so many rotations by up to 0.1 rad, each a little longer or shorter than 1, so that the product's
 /// length ends between 1e-6 and 1e6.
 fn drift(products: u32, random: &mut Random) -> Quat {
     let start = random.turn();
@@ -163,10 +163,10 @@ fn product(p: [f32; 4], q: [f32; 4]) -> [f32; 4] {
     ]
 }
 
-/// Shares of size by which [`resting`] bodies are sunk at most, by level.
+/// The greatest depth of [`resting`] bodies as a share of their size, by level.
 const SUNK: [f64; 5] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7];
 
-/// Bodies at rest on each other, face on face, a little sunk.
+/// Bodies at rest on each other, face on face, with a small overlap.
 pub(super) fn resting(level: u32, random: &mut Random) -> Draft3 {
     let sunk = SUNK[level.min(4) as usize] * random.range(0.3, 1.0);
     let (a, b) = match random.below(3) {
@@ -177,7 +177,7 @@ pub(super) fn resting(level: u32, random: &mut Random) -> Draft3 {
     contact((a, Kind::Face), (b, Kind::Face), -sunk, random)
 }
 
-/// Anything anywhere near: the easy control.
+/// Random shapes near each other: the easy control.
 pub(super) fn random_pair(_level: u32, random: &mut Random) -> Draft3 {
     let (a, b) = (anything(1.0, random), anything(1.0, random));
     let (a, b) = (Body3::new(a, random.turn()), Body3::new(b, random.turn()));

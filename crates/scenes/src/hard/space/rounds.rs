@@ -1,4 +1,4 @@
-//! Round things, many vertices, prisms.
+//! Round shapes, hulls with many vertices, prisms.
 
 use super::body::{Body3, Draft3, place, size};
 use super::faces::{on_grid, whole_rotation};
@@ -11,10 +11,10 @@ use asunder_geometry::Shape3;
 use core::f64::consts::TAU;
 use glam::{DVec3, Quat, Vec3};
 
-/// Levels of [`points_and_balls`]: at most 128 ulp around exact contacts, and so on down to none.
+/// Levels of [`points_and_balls`]: at most 128 ulps off exact contacts, halved at each further level, none at the last.
 pub(super) const BALL_LEVELS: u32 = 9;
 
-/// Whole offsets with whole lengths.
+/// Offsets of whole numbers whose lengths are whole numbers.
 const QUADRUPLES: [[f64; 4]; 8] = [
     [3.0, 4.0, 0.0, 5.0],
     [1.0, 2.0, 2.0, 3.0],
@@ -26,7 +26,7 @@ const QUADRUPLES: [[f64; 4]; 8] = [
     [3.0, 4.0, 12.0, 13.0],
 ];
 
-/// Balls, capsules and rounded solids whose centres, ends or corners are a whole distance apart, or ulps from it.
+/// Balls, capsules and rounded solids whose centres, ends or corners are an exact distance apart, or ulps from it.
 pub(super) fn points_and_balls(level: u32, random: &mut Random) -> Draft3 {
     if random.unit() < 0.3 {
         return nearly_touching(level, random);
@@ -34,11 +34,11 @@ pub(super) fn points_and_balls(level: u32, random: &mut Random) -> Draft3 {
     let q = whole_rotation(random);
     let square: f64 = q.iter().map(|q| q * q).sum();
     let [x, y, z, length] = QUADRUPLES[random.below(QUADRUPLES.len())];
-    // A grid on which every number here is whole, such that the distance is half a metre to a metre.
+    // A grid on which all numbers here are whole, chosen so that the distance is between half a metre and a metre.
     let grid = square * libm::exp2(-libm::ceil(libm::log2(square * length)));
     let parts = 2.0 * length;
     let radius_a = 1.0 + random.below(parts as usize - 1) as f64;
-    // Halved, so that radii may be odd parts of the distance.
+    // Halved, so that the radii may be odd shares of the distance.
     let (radius_a, radius_b) = (radius_a * grid * 0.5, (parts - radius_a) * grid * 0.5);
     let mut offset = DVec3::new(x * sign(random), y * sign(random), z * sign(random)) * grid;
     for _ in 0..random.below(3) {
@@ -64,7 +64,7 @@ pub(super) fn points_and_balls(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, goal).claiming(axis, (goal[moved] - before).abs())
 }
 
-/// Something with a rounded corner that looks in a direction, and where the corner is.
+/// A shape with a round end or corner in a given direction, and the centre of that rounding.
 fn ball(radius: f64, towards: DVec3, grid: f64, random: &mut Random) -> (Shape3, DVec3) {
     let away = DVec3::new(
         if towards.x > 0.0 { 1.0 } else { -1.0 },
@@ -108,7 +108,7 @@ fn nearly_touching(level: u32, random: &mut Random) -> Draft3 {
 /// Vertices of the hulls of [`round_hulls`], by level.
 pub(super) const COUNTS: [usize; 4] = [64, 128, 192, 256];
 
-/// Hulls of many vertices: random points on a ball, or meridians and circles of latitude.
+/// Hulls of many vertices: random points on a ball, or points along meridians and parallels.
 pub(super) fn round_hulls(level: u32, random: &mut Random) -> Draft3 {
     let count = COUNTS[level.min(3) as usize];
     let gap = any_gap(random);
@@ -140,7 +140,7 @@ fn globe(count: usize, random: &mut Random) -> Shape3 {
 /// Sides of the prisms of [`prisms`], by level.
 pub(super) const SIDES: [usize; 6] = [3, 5, 8, 16, 32, 64];
 
-/// Prisms over regular polygons, whose caps are one face each, resting on each other by caps and sides.
+/// Prisms over regular polygons, whose caps are one face each, which touch by caps and sides.
 pub(super) fn prisms(level: u32, random: &mut Random) -> Draft3 {
     let most = SIDES[level.min(5) as usize];
     let gap = any_gap(random);
@@ -155,7 +155,7 @@ pub(super) fn prisms(level: u32, random: &mut Random) -> Draft3 {
     contact((a, Kind::Face), (b, Kind::Face), gap, random)
 }
 
-/// Cap on cap under one rotation, the upper one spun about the common axis by nothing.
+/// Cap on cap under one rotation, with no spin between the two.
 fn upright(a: Shape3, b: Shape3, gap: f64, random: &mut Random) -> Draft3 {
     let turn = if random.unit() < 0.5 { Turn::IDENTITY } else { random.turn() };
     let (a, b) = (Body3::new(a, turn), Body3::new(b, turn));

@@ -1,4 +1,4 @@
-//! Far away, tiny, huge, unequal, scaled, and next to nothing.
+//! Scales: far away, tiny, huge, unequal, scaled by powers of two, and denormal.
 
 use super::body::{Body3, Draft3};
 use super::features::{any_contact, any_contact_at};
@@ -15,7 +15,7 @@ pub(super) const FAR_LEVELS: u32 = 8;
 
 const REACH: [f64; FAR_LEVELS as usize] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// A contact far from the origin. Every fourth at the last level has a position at the very limit.
+/// A contact far from the origin. A quarter of those at the last level have a position at the very limit.
 pub(super) fn far(level: u32, random: &mut Random) -> Draft3 {
     let reach = REACH[level.min(FAR_LEVELS - 1) as usize];
     if random.unit() < 0.3 {
@@ -32,7 +32,7 @@ pub(super) fn far(level: u32, random: &mut Random) -> Draft3 {
     moved(draft, shift)
 }
 
-/// The pair elsewhere: A at a place, B where it was from A, as near as positions go.
+/// The pair moved: A to a place, B to its old offset from A, as far as positions can represent it.
 fn moved(draft: Draft3, to: DVec3) -> Draft3 {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = draft.pair;
     let to = to.clamp(DVec3::splat(-MAX_POSITION), DVec3::splat(MAX_POSITION));
@@ -46,7 +46,7 @@ fn moved(draft: Draft3, to: DVec3) -> Draft3 {
     }
 }
 
-/// Bricks on a grid of 2^-20 m, face on face, or steps of a position from it.
+/// Bricks on a grid of 2^-20 m, face on face, or steps of a position off that.
 fn far_bricks(reach: f64, random: &mut Random) -> Draft3 {
     let grid = libm::exp2(-20.0);
     let snap = |v: DVec3| (v / grid).round() * grid;
@@ -65,10 +65,10 @@ fn far_bricks(reach: f64, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, at + offset).claiming(along, 4.0 * step)
 }
 
-/// Ratios of size of [`size_ratio`], by level.
+/// Size ratios of [`size_ratio`], by level.
 const RATIOS: [f64; 6] = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6];
 
-/// A small thing on a large one. Gaps are shares of the large one's size or of the small one's.
+/// A small shape on a large one. Gaps are shares of the size of either.
 pub(super) fn size_ratio(level: u32, random: &mut Random) -> Draft3 {
     let ratio = RATIOS[level.min(5) as usize];
     let large = random.log_range(10.0, 1e5);
@@ -79,10 +79,10 @@ pub(super) fn size_ratio(level: u32, random: &mut Random) -> Draft3 {
     any_contact(a, b, gap, random)
 }
 
-/// Widths of [`tiny`], by level but the last.
+/// Widths of [`tiny`], by level except the last.
 const TINY: [f64; 3] = [1e-3, 1e-4, 1e-5];
 
-/// Pebbles down to the smallest that there may be.
+/// Small shapes, down to the smallest allowed.
 pub(super) fn tiny(level: u32, random: &mut Random) -> Draft3 {
     let gap = any_gap(random);
     let one = |random: &mut Random| match TINY.get(level as usize) {
@@ -91,11 +91,11 @@ pub(super) fn tiny(level: u32, random: &mut Random) -> Draft3 {
     };
     let (a, b) = (one(random), one(random));
     let draft = any_contact_at(a, b, gap, DVec3::ZERO, random);
-    // Most near the origin: 5 m away one step of a position is a billionth of the size.
+    // Mostly near the origin: 5 m away, one step of a position is a billionth of the size.
     if random.unit() < 0.7 { draft } else { moved(draft, random.direction() * 5.0) }
 }
 
-/// A shape at the least bounding radius, 1e-6 m, or hardly above.
+/// A shape with the least bounding radius, 1e-6 m, or hardly more.
 fn least(random: &mut Random) -> Shape3 {
     match random.below(4) {
         0 => sphere(1e-6),
@@ -105,10 +105,10 @@ fn least(random: &mut Random) -> Shape3 {
     }
 }
 
-/// Widths of [`huge`], by level but the last.
+/// Widths of [`huge`], by level except the last.
 const HUGE: [f64; 3] = [1e3, 1e4, 1e5];
 
-/// Mountains up to the largest that there may be.
+/// Large shapes, up to the largest allowed.
 pub(super) fn huge(level: u32, random: &mut Random) -> Draft3 {
     let gap = any_gap(random);
     let one = |random: &mut Random| match HUGE.get(level as usize) {
@@ -133,7 +133,7 @@ fn greatest(random: &mut Random) -> Shape3 {
 /// Exponents of two of [`scaled`], by level.
 const POWERS: [f64; 4] = [3.0, 8.0, 13.0, 17.0];
 
-/// A contact of bodies about 1 m wide, scaled in every number by a power of two.
+/// A contact of bodies about 1 m wide, with every number scaled by a power of two.
 pub(super) fn scaled(level: u32, random: &mut Random) -> Draft3 {
     let power = POWERS[level.min(3) as usize] * sign(random);
     let gap = any_gap(random);
@@ -159,7 +159,7 @@ fn times(shape: &Shape3, factor: f32) -> Shape3 {
     hull(&points)
 }
 
-/// Numbers next to nothing: in places, in vertices, in rotations.
+/// Numbers next to zero: in positions, vertices and rotations.
 pub(super) fn denormal(level: u32, random: &mut Random) -> Draft3 {
     match level {
         0 => near_places(random),
@@ -183,7 +183,7 @@ fn nothing(random: &mut Random) -> DVec3 {
     DVec3::new(one(), one(), one())
 }
 
-/// Bricks that touch exactly but for a difference that is next to nothing; or one within the other.
+/// Bricks that touch exactly except for a tiny difference; or one within the other.
 fn near_places(random: &mut Random) -> Draft3 {
     let half = |random: &mut Random| random.within(DVec3::splat(0.3), DVec3::splat(0.6)).as_vec3().as_dvec3();
     let (a, b) = (half(random), half(random));
@@ -234,7 +234,7 @@ fn small_rotation(random: &mut Random) -> Quat {
     if random.unit() < 0.5 {
         parts[random.below(4)] = 1.0;
     }
-    // Of the smallest scale all may have been rounded to nothing.
+    // At the smallest scale all of them may have been rounded to zero.
     if parts == [0.0; 4] {
         parts[3] = f32::from_bits(1);
     }

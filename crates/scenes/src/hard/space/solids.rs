@@ -1,4 +1,4 @@
-//! Solids, with a plain one where a constructor refuses.
+//! Shapes in space; where a constructor rejects one, a plain shape takes its place.
 
 use crate::pairs;
 use crate::random::Random;
@@ -6,7 +6,7 @@ use asunder_geometry::{Capsule3, Cuboid, Hull, Segment3, Shape3, Sphere, Triangl
 use core::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
-/// What takes the place of a shape that was refused.
+/// The shape that replaces a rejected one.
 pub(super) fn plain() -> Shape3 {
     pairs::cuboid(Vec3::splat(0.5))
 }
@@ -19,7 +19,7 @@ pub(super) fn hull(points: &[Vec3]) -> Shape3 {
     Hull::from_points(points).map_or_else(|_| plain(), Shape3::from)
 }
 
-/// The hull of points, flat ones too.
+/// The hull of points, which may lie in a plane.
 pub(super) fn any_hull(points: &[Vec3]) -> Shape3 {
     Hull::of_any_dimension(points).map_or_else(|_| plain(), Shape3::from)
 }
@@ -41,7 +41,7 @@ pub(super) fn triangle(corners: [DVec3; 3]) -> Shape3 {
     Triangle3::new(a, b, c).map_or_else(|_| plain(), Shape3::from)
 }
 
-/// The same solid with everything within a radius of it; shapes that carry no rounding as they are.
+/// The same shape, rounded: grown by a radius. A shape that cannot be rounded stays as it is.
 pub(super) fn rounded(shape: Shape3, radius: f64) -> Shape3 {
     let grown = match &shape {
         Shape3::Cuboid(cuboid) => cuboid.rounded(radius as f32).ok().map(Shape3::from),

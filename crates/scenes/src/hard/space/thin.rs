@@ -1,4 +1,4 @@
-//! Needles, plates, slivers, flat things, segments.
+//! Needles, plates, slivers, flat shapes, segments.
 
 use super::body::{Body3, Draft3, place, size};
 use super::features::{Kind, any_contact, contact};
@@ -9,7 +9,7 @@ use asunder_geometry::Shape3;
 use core::f64::consts::TAU;
 use glam::{DVec3, Vec3};
 
-/// Widths of what is 1 m long, by level.
+/// Widths of shapes about 1 m long, by level.
 const WIDTHS: [f64; THIN_LEVELS as usize] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Levels of [`needles`], [`plates`] and [`slivers`].
@@ -18,14 +18,14 @@ pub(super) const THIN_LEVELS: u32 = 5;
 /// What a level of [`needles`], [`plates`] and [`slivers`] means.
 pub(super) const THIN_KNOB: &str = "one in 100 thick at level 0, a tenth of that each level on";
 
-/// What is round by itself has at least this radius.
+/// Round shapes get at least this radius.
 const LEAST: f64 = 1.01e-6;
 
 fn width(level: u32) -> f64 {
     WIDTHS[level.min(THIN_LEVELS - 1) as usize]
 }
 
-/// Long and thin solids against each other and against solids of ordinary build.
+/// Long and thin solids against each other and against ordinary solids.
 pub(super) fn needles(level: u32, random: &mut Random) -> Draft3 {
     let needle = |random: &mut Random| {
         let (length, width) = (random.range(0.4, 0.8), width(level) * random.range(0.5, 1.0));
@@ -43,7 +43,7 @@ pub(super) fn needles(level: u32, random: &mut Random) -> Draft3 {
     contact((a, kinds[0]), (b, kinds[1]), gap, random)
 }
 
-/// A tetrahedron: a long edge, and a short one beside its middle.
+/// A tetrahedron with one long edge, and a short one beside its middle.
 fn splinter(length: f64, width: f64, random: &mut Random) -> Shape3 {
     let mut off = || random.range(-0.3, 0.3) * length;
     let points = [
@@ -55,13 +55,13 @@ fn splinter(length: f64, width: f64, random: &mut Random) -> Shape3 {
     hull(&points.map(|point| point.as_vec3()))
 }
 
-/// A gap of any share of size, or of the thickness.
+/// A gap of any level, as a share of the size or of the thickness.
 fn thin_gap(level: u32, random: &mut Random) -> f64 {
     let gap = any_gap(random);
     if random.unit() < 0.5 { gap * width(level) } else { gap }
 }
 
-/// Thin plates on each other, across each other, and against solids of ordinary build.
+/// Thin plates on each other, across each other, and against ordinary solids.
 pub(super) fn plates(level: u32, random: &mut Random) -> Draft3 {
     let plate = |random: &mut Random| {
         let (reach, width) = (random.within(DVec3::splat(0.3), DVec3::splat(0.8)), width(level));
@@ -85,7 +85,7 @@ fn shard(reach: DVec3, width: f64, random: &mut Random) -> Shape3 {
     hull(&points)
 }
 
-/// Hulls whose vertices are nearly on one line or in one plane, so that facets are slivers.
+/// Hulls with vertices nearly on one line or in one plane, so that facets are slivers.
 pub(super) fn slivers(level: u32, random: &mut Random) -> Draft3 {
     let a = sliver(level, random);
     let b = if random.unit() < 0.5 { sliver(level, random) } else { solid(1.0, random) };
@@ -93,7 +93,7 @@ pub(super) fn slivers(level: u32, random: &mut Random) -> Draft3 {
     any_contact(a, b, gap, random)
 }
 
-/// A box with more points on its edges and faces, each moved a little way out.
+/// A box with more points on its edges and faces, each moved outwards a little.
 fn sliver(level: u32, random: &mut Random) -> Shape3 {
     let half = random.within(DVec3::splat(0.3), DVec3::splat(0.6));
     let mut points: Vec<Vec3> =
@@ -119,7 +119,7 @@ fn side(index: u32, bit: u32) -> f64 {
     if index >> bit & 1 == 1 { 1.0 } else { -1.0 }
 }
 
-/// A flat shape: a triangle or a flat hull, in the plane y = 0 or, half as often, off all axes.
+/// A flat shape: a triangle or a flat hull, in the plane y = 0 or, half as often, in an oblique plane.
 fn sheet(random: &mut Random) -> Shape3 {
     let reach = random.range(0.3, 0.6);
     let count = 3 + random.below(8);
@@ -131,7 +131,7 @@ fn sheet(random: &mut Random) -> Shape3 {
     match random.below(3) {
         0 => triangle([corner(0), corner(count / 3), corner(2 * count / 3)]),
         1 => {
-            // z = x + 2y keeps points of a coarse grid in one plane exactly.
+            // z = x + 2y keeps points of a coarse grid exactly in one plane.
             let grid = |value: f64| (value * 64.0).round() / 64.0;
             let points: Vec<Vec3> = (0..count)
                 .map(|i| {
@@ -160,7 +160,7 @@ pub(super) fn flat(level: u32, random: &mut Random) -> Draft3 {
     any_contact(a, b, gap, random)
 }
 
-/// Two sheets under one rotation, side by side in one plane where they lie in y = 0.
+/// Two sheets under one rotation; sheets in y = 0 lie side by side in one plane.
 fn coplanar(a: Shape3, b: Shape3, gap: f64, random: &mut Random) -> Draft3 {
     let turn = if random.unit() < 0.5 { random.turn() } else { crate::turn::Turn::IDENTITY };
     let (a, b) = (Body3::new(a, turn), Body3::new(b, turn));
@@ -170,7 +170,7 @@ fn coplanar(a: Shape3, b: Shape3, gap: f64, random: &mut Random) -> Draft3 {
     Draft3::beside(a, b, axis, gap, place(random))
 }
 
-/// Segments against segments and everything else, crossing, in line and side by side.
+/// Segments against segments and everything else: crossing, collinear and side by side.
 pub(super) fn segments(level: u32, random: &mut Random) -> Draft3 {
     let gap = gap(level, random);
     let rod = |random: &mut Random| {

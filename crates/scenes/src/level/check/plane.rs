@@ -59,7 +59,7 @@ impl Dimension for Plane {
                 check_sides(*sides, MAX_POLYGON_VERTICES).map_err(at(".regular.sides"))?;
                 let radius = positive(*radius).map_err(at(".regular.radius"))?;
                 let corners: Vec<Vec2> = circle(*sides).map(|c| (c * radius).as_vec2()).collect();
-                // A hull, because rounding may bend a large circle's outline inwards.
+                // A hull, because rounding may make a large circle's outline concave.
                 Ok(made(".regular", Polygon::hull_of(&corners))?.into())
             }
             raw::Shape::Circle { radius } => {
