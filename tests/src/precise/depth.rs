@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! Two hulls overlap where the set D of all differences of their points contains the origin, and the separation is
-//! minus the distance from the origin to the nearest facet of D. A facet of a Minkowski sum is a facet of A and a vertex
-//! of B, or vice versa, or an edge of each (or facets of both, or a facet and an edge, whose normal is that facet's).
-//! So: every facet normal of A and, negated, of B; every cross product of edges, both ways.
+//! minus the distance from the origin to the nearest facet of D. A facet of a Minkowski sum is a facet of A and a
+//! vertex of B, or vice versa, or an edge of each (or facets of both, or a facet and an edge, whose normal is that
+//! facet's). So: every facet normal of A and, negated, of B; every cross product of edges, both ways.
 //!   f64     the gap along each; a pair of edges only if the vertices beside them allow both edges to support the axis
 //!   dd      all that come within 1e-11 of the best, again
 //! ```
