@@ -16,7 +16,7 @@ use std::error::Error;
 /// Within this share of the pair's size of touching, parry3d's answer is not compared with ours.
 const BAND: f32 = 1e-4;
 
-/// Random pairs beside parry3d: how often both say the same, and how far apart their numbers are.
+/// Random pairs against parry3d: how often the two agree, and how far apart their numbers are.
 #[derive(Parser)]
 struct Options {
     /// Pairs.

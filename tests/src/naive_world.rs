@@ -5,11 +5,11 @@
 //! overlap      exactly the oracle's
 //! contact      the oracle's separation against the margins; within `BAND` of them either is right, and the world's
 //!              answer is taken
-//! to come      bodies within the margins at any of some moments of the motions must have a speculative contact; bodies
-//!              further apart than the motions can close must not                                (ahead)
-//! impacts      each touches at the reported time, and what is passed through at any moment is reported   (ahead)
-//! manifolds    their least separation is the oracle's within their error                        (check)
-//!              or, in worlds without tiny moves, they are the narrow phase's in every bit       (bits)
+//! to come      bodies within the margins at any of some moments of the motions must have a speculative contact;
+//!              bodies further apart than the motions can close must not                       (ahead)
+//! impacts      each touches at its reported time; what is passed at any moment is reported    (ahead)
+//! manifolds    their least separation is the oracle's within their error                      (check)
+//!              or, in worlds without tiny moves, they are the narrow phase's in every bit     (bits)
 //! ```
 
 mod ahead;

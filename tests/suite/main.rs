@@ -27,7 +27,7 @@
 //! - [`exactness`]: overlap decisions agree with exact arithmetic: far apart, near, and within one rounding of touching
 //! - [`agreement`]: separations, distances, points, records and events agree with that decision, ulp by ulp
 //! - [`hard`]: 100,000 hard cases: no wrong answer, no bound broken, no panic, every error within 1e-6 of the size
-//! - [`steady`]: one ulp of a pose changes no number of contact points, and no depth by more than it moves the shapes
+//! - [`steady`]: one ulp of a pose does not change the number of contact points, nor a depth by more than it moves shapes
 //! - [`manifolds`]: points lie on both shapes, share one normal, and are as deep as the pair; how much of the faces
 //!   they keep; feature ids that persist
 //! - [`plane`]: polygons of many edges against all edges, with A and B swapped; hints may change feature ids, never an
@@ -60,7 +60,7 @@
 //! - [`solver`]: stacks, pyramids and leaning cards stand on the manifolds, warm-started by feature ids
 //!
 //! World
-//! - [`tiles`]: floors made of many bodies have no seams for bullets and casts, and walls on them stand
+//! - [`tiles`]: floors made of many bodies have no seams for bullets and casts, and walls on them stop both
 //! - [`world_events`]: what a game sees, step by step: events, keys, margins, sensors, filters, limits
 //! - [`still`]: where hardly anything moves, pairs that were skipped are as if they had been processed
 //! - [`world_crowds`]: pairs that come and go by tens of thousands are those of a double loop

@@ -133,7 +133,8 @@ fn polygons_weigh_what_exact_fractions_say() {
             let Ok(polygon) = Polygon::hull_of(&cloud) else { continue };
             let outline: Vec<[i64; 2]> =
                 polygon.vertices().iter().map(|v| v.to_array().map(|value| value as i64)).collect();
-            // An area is a difference of products: the longer the polygon, the less of them is left. Lattice axes are benign.
+            // An area is a difference of products: the longer the polygon, the less of them is left. Lattice axes are
+            // benign.
             check2(&of2(polygon.clone()), &exact::polygon(&outline), ROUNDING);
             assert_eq!(of2(polygon.rounded(0.0).unwrap()), of2(Polygon::hull_of(&cloud).unwrap()));
         }

@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 #[derive(Parser)]
 #[command(name = "hard")]
 struct Cli {
-    /// Cases in all, shared out among the families; those with very many vertices get fewer.
+    /// Total number of cases, shared out among the families; those with very many vertices get fewer.
     #[arg(long, default_value_t = 1_000_000)]
     cases: usize,
-    /// Separations are judged on every so many-th case of a level, which takes far longer than yes or no.
+    /// Separations are judged on every k-th case of a level, since that takes far longer than overlap; this is k.
     #[arg(long, default_value_t = 10)]
     truth_every: usize,
-    /// Where `hard.json` and `hard.md` go.
+    /// The folder for `hard.json` and `hard.md`.
     #[arg(long, value_name = "DIR", default_value = "target/hard")]
     out: PathBuf,
     /// Only families whose title contains this.
@@ -29,7 +29,7 @@ struct Cli {
     /// The first seed of every family.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The day of the run, to be printed.
+    /// The date of the run, to be printed.
     #[arg(long)]
     date: Option<String>,
     /// Without parry3d.
