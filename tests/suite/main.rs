@@ -27,7 +27,8 @@
 //! - [`exactness`]: overlap decisions agree with exact arithmetic: far apart, near, and within one rounding of touching
 //! - [`agreement`]: separations, distances, points, records and events agree with that decision, ulp by ulp
 //! - [`hard`]: 100,000 hard cases: no wrong answer, no bound broken, no panic, every error within 1e-6 of the size
-//! - [`steady`]: one ulp of a pose does not change the number of contact points, nor a depth by more than it moves shapes
+//! - [`steady`]: one ulp of a pose changes neither the number of contact points, nor a depth by more than it moves the
+//!   shapes
 //! - [`manifolds`]: points lie on both shapes, share one normal, and are as deep as the pair; how much of the faces
 //!   they keep; feature ids that persist
 //! - [`plane`]: polygons of many edges against all edges, with A and B swapped; hints may change feature ids, never an
