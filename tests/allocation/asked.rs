@@ -1,4 +1,4 @@
-//! Everything that a world can be asked, and a world in which much goes on.
+//! All queries of a world, and a world in which much happens.
 
 use asunder::glam::{Vec2, Vec3};
 use asunder::{
@@ -10,23 +10,23 @@ use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use core::ops::ControlFlow;
 
-/// A dimension whose worlds are asked.
+/// A dimension whose worlds are queried.
 pub(crate) trait Asker: Engine {
-    /// What is asked: a shape, a way and a box.
+    /// The arguments of the queries: a shape, a displacement and a box.
     type Asked: Send + Sync;
     /// The caller's buffers.
     type Lists: Default + Send;
-    /// Something within `room` of the origin on each axis.
+    /// Random arguments within `room` of the origin on each axis.
     fn asked(random: &mut Random, room: f64) -> Self::Asked;
-    /// Every question of one answer and every visitor; the number of answers.
+    /// Runs every query with a single answer and every visitor; returns the number of answers.
     fn visit(world: &World<Self>, asked: &Self::Asked) -> usize;
-    /// Every question into a buffer; the number of answers.
+    /// Runs every query that fills a buffer; returns the number of answers.
     fn list(world: &World<Self>, asked: &Self::Asked, into: &mut Self::Lists) -> usize;
-    /// A character that is freed, and then walks; whether it met something.
+    /// Frees a character, and lets it walk; returns whether it hit something.
     fn walk(world: &World<Self>, asked: &Self::Asked) -> bool;
-    /// All debug lines; their number.
+    /// Draws all debug lines; returns their number.
     fn lines(world: &World<Self>) -> usize;
-    /// A snapshot, and a world made of it: whether it says the same.
+    /// Takes a snapshot, and restores a world from it; returns whether that reports the same.
     fn comes_back(world: &World<Self>) -> bool;
     /// Ground for a room, from -3 to 3 m.
     fn ground() -> Vec<Collider<Self>>;
@@ -62,7 +62,7 @@ impl<K, N, R, C> Default for Lists<K, N, R, C> {
     }
 }
 
-/// Half a metre more than most bodies are long, so that questions are answered by several.
+/// Half a metre more than most bodies are long, so that queries find several.
 const WITHIN: f32 = 1.5;
 
 macro_rules! asker {
@@ -150,7 +150,7 @@ asker!(Plane, Asked2, NearAnswer2, RayAnswer2, CastAnswer2, asked2, ground2);
 
 fn asked3(random: &mut Random, room: f64) -> Asked3 {
     let body = Volume::random_body(random, room);
-    // A character is no ground, and a half-space goes nowhere.
+    // A character cannot be ground, and a half-space cannot move.
     let shape = if body.shape().outer_radius().is_finite() { body.shape().clone() } else { random.cuboid() };
     let (pose, displacement) = (*body.pose(), random.vector().as_vec3() * 3.0);
     let (walk, middle) = (Walk3::new(&shape, Vec3::Y).unwrap(), pose.position().as_vec3());

@@ -7,10 +7,10 @@ use asunder_tests::cases::Random;
 use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::engine::{Change, Engine};
 
-/// Bodies, more or less.
+/// Approximate number of bodies.
 const BODIES: usize = 1000;
 
-/// A few hundred of everything to draw from: making one takes longer than all else.
+/// A few hundred of everything to draw from: making them takes longer than all else.
 struct Stock<S: Asker> {
     bodies: Vec<Collider<S>>,
     changes: Vec<Change<S>>,
@@ -32,13 +32,13 @@ impl<S: Asker> Stock<S> {
     }
 }
 
-/// A world in which much goes on.
+/// A world in which much happens.
 struct Life<S: Asker> {
     world: World<S>,
     keys: Vec<S::Key>,
     copy: World<S>,
     lists: S::Lists,
-    /// Updates, contacts, impacts, answers and characters that met something: there was something to hold.
+    /// Numbers of updates, contacts, impacts, answers and characters that hit something: evidence that memory was used.
     seen: [usize; 5],
 }
 
@@ -54,7 +54,7 @@ impl<S: Asker> Life<S> {
         S::ground().into_iter().for_each(|ground| _ = S::insert(&mut self.world, ground));
     }
 
-    /// A body moves, comes, goes, is changed or given a motion, or something is asked.
+    /// Moves, inserts, removes or changes a body, gives it a motion, or runs a query.
     fn act(&mut self, stock: &Stock<S>, random: &mut Random) {
         let Self { world, keys, lists, seen: [.., answers, walls], .. } = self;
         let number = random.below(stock.bodies.len());
@@ -73,7 +73,7 @@ impl<S: Asker> Life<S> {
         }
     }
 
-    /// What is done now and then.
+    /// What is done now and then: updates, copies, snapshots.
     fn look_back(&mut self, operation: usize) {
         let Self { world, copy, seen: [updates, contacts, impacts, ..], .. } = self;
         if operation.is_multiple_of(1000) {
@@ -89,10 +89,10 @@ impl<S: Asker> Life<S> {
     }
 }
 
-/// Operations until all bodies go, and everything is done once more.
+/// Operations until all bodies are removed, and everything is done once more.
 const ROUND: usize = 250_000;
 
-/// Bytes held after each round of the same operations; now and then all is updated, cloned, saved and restored.
+/// Bytes held after each round of the same operations; now and then the world is updated, cloned, saved and restored.
 fn bytes_after<S: Asker>(rounds: usize, room: f64) -> Vec<i64> {
     counted(1, || {
         let stock = Stock::<S>::new(&mut Random::new(90), room);
@@ -113,9 +113,9 @@ fn bytes_after<S: Asker>(rounds: usize, room: f64) -> Vec<i64> {
 }
 
 fn check<S: Asker>(room: f64) {
-    // Slots are filled in another order in each round, so that pairs are, too, and lists of chunks differ a little: by
-    // 60 kB up or down, of 15 MB, from the third round to the tenth, and until then the largest of each is still to
-    // come. A byte an operation would be eight times as much.
+    // In each round slots are filled in another order, so that pairs are, too, and the lists of chunks differ slightly:
+    // by 60 kB up or down, of 15 MB, from the third round to the tenth; before that the largest of each is still to
+    // come. One byte per operation would be eight times as much.
     let held = bytes_after::<S>(6, room);
     assert!(held[5] - held[3] < ROUND as i64 / 4, "{held:?} bytes after so many rounds");
 }
@@ -130,7 +130,8 @@ fn a_million_operations_in_the_plane_take_no_more_memory() {
     check::<Plane>(40.0);
 }
 
-/// Reshaping, and motions that a replaced body loses, again and again between two updates are noted once.
+/// A change of shape, or a motion that a replaced body loses, is recorded once however often it happens between
+/// updates.
 #[test]
 fn changes_between_updates_take_no_memory_each() {
     let grown = counted(1, || {
@@ -147,12 +148,12 @@ fn changes_between_updates_take_no_memory_each() {
         }
         live_bytes() - before
     });
-    // Lists of twice as many slots as there are, and what they keep to spare.
+    // Lists of twice as many slots as there are, plus their spare capacity.
     assert!(grown < 2000, "{grown} bytes");
 }
 
-/// Cubes that hop on and off a level, while others elsewhere hop onto each other: what was kept of one pair serves
-/// another, however far apart they are in the list of pairs.
+/// Cubes hop on and off a level, while others elsewhere hop onto each other: memory kept for one pair must be reused
+/// for another, however far apart they are in the list of pairs.
 #[test]
 fn what_hops_takes_no_memory_each_time() {
     let grown = counted(1, || {
@@ -169,7 +170,7 @@ fn what_hops_takes_no_memory_each_time() {
             world.insert(if is_fixed { cube.fixed() } else { cube })
         };
         let on_floor: Vec<_> = (0..40).map(|number| insert(number, 10.0, false)).collect();
-        // Pairs that stay, between theirs and those of the others.
+        // Permanent pairs, in the list between the pairs of the two groups.
         for number in 0..300 {
             insert(number, 50.0, true);
             insert(number, 50.999, false);
@@ -194,6 +195,6 @@ fn what_hops_takes_no_memory_each_time() {
         assert!(world.stats().overlapping >= 300);
         held[1] - held[0]
     });
-    // Kept by the wrong one, it was 70,000 a cycle.
+    // When it was kept in the wrong place, it grew by 70,000 a cycle.
     assert!(grown < 10_000, "{grown} bytes in forty cycles");
 }

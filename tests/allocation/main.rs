@@ -1,6 +1,6 @@
-//! What a world takes from the allocator: nothing a frame once it is steady, no more as it ages, and so much a body.
+//! A world's memory: a steady one allocates nothing per frame, an ageing one no more, and how much a body takes.
 //!
-//! A binary of its own, since a program has one allocator.
+//! A binary of its own, since a program has one global allocator.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
 

@@ -1,4 +1,4 @@
-//! Memory a body, which the documentation of `World` states; and what ground says that it holds.
+//! Memory per body, which the documentation of `World` states; and the sizes that ground reports.
 
 use asunder::glam::{Vec2, Vec3};
 use asunder::{
@@ -11,18 +11,18 @@ use asunder_tests::cases::Random;
 use asunder_tests::counting::{counted, live_bytes};
 use asunder_tests::recorded::{Recorded, Recording};
 
-/// What the documentation says: bytes a body, and bytes a candidate pair.
+/// What the documentation states: bytes per body, and bytes per candidate pair.
 type Stated = (f64, f64);
 
-/// Bytes that a world holds a body, after some frames, without the data of its shapes.
+/// Checks the bytes that a world holds per body after some frames, without the data of its shapes.
 fn check<S: Recording>(name: &str, (scene, count): (WorldScene, usize), (a_body, a_candidate): Stated) {
     counted(1, || {
-        // The shapes' data and the motion are not the world's.
+        // The shapes' data and the motion do not belong to the world.
         let (replay, colliders) = S::open(scene, count);
         let before = live_bytes();
         let mut world = Recorded::<S>::with((replay, colliders.clone()));
         let clones = live_bytes() - before;
-        // Some frames, and then two in which nobody moves: contacts are carried on by themselves.
+        // Some frames, and then two in which nothing moves: contacts are carried over.
         for frame in [0, 1, 2, 3, 3, 3] {
             world.play(frame);
         }
@@ -53,7 +53,7 @@ fn memory_a_body_is_as_documented() {
     check::<Plane>("plane/many_pyramids", (WorldScene::ManyPyramids, 100_000), in_plane);
 }
 
-/// The same of bodies whose pairs have many manifolds: bytes for each beyond one a candidate.
+/// The same for bodies whose pairs have many manifolds: bytes for each beyond one per candidate.
 fn check_many(name: &str, level: Collider3, bodies: &[Collider3], a_manifold: f64) {
     let level = level.margin(0.01).unwrap();
     counted(1, || {
@@ -62,7 +62,7 @@ fn check_many(name: &str, level: Collider3, bodies: &[Collider3], a_manifold: f6
         world.insert(level.clone());
         let keys: Vec<_> = bodies.iter().map(|body| world.insert(body.clone())).collect();
         for frame in 0..6 {
-            // They tremble, and so their contacts are moved along; in the end they rest.
+            // They tremble, so that their contacts are moved along; in the end they rest.
             let by = [0.0, 1e-4, -1e-4, 0.0, 0.0, 0.0][frame];
             for (key, body) in keys.iter().zip(bodies) {
                 world.set_pose(*key, body.pose().shifted([by, 0.0, 0.0]).unwrap()).unwrap();
@@ -102,11 +102,11 @@ fn memory_of_pairs_of_many_manifolds_is_as_documented() {
     check_many("slabs", floor, &boxes, 1300.0);
 }
 
-/// What ground says that it holds, and what the allocator gave for it; checks that all of it is given back.
+/// The size that ground reports, and what was allocated for it; asserts that all of it is freed.
 fn said_and_given<T>(make: impl FnOnce() -> T + Send, bytes: impl FnOnce(&T) -> usize + Send) -> [f64; 2] {
     counted(1, || {
         let before = live_bytes();
-        // What it is made from becomes its own, or is given back.
+        // The input becomes part of the ground, or is freed.
         let ground = make();
         let (said, given) = (bytes(&ground), live_bytes() - before);
         drop(ground);
@@ -115,7 +115,7 @@ fn said_and_given<T>(make: impl FnOnce() -> T + Send, bytes: impl FnOnce(&T) -> 
     })
 }
 
-/// The two counters of an `Arc`, of which `bytes` says nothing.
+/// The two counters of an `Arc`, which `bytes` does not include.
 const COUNTERS: f64 = 2.0 * size_of::<usize>() as f64;
 
 #[test]

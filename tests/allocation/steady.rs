@@ -9,14 +9,14 @@ use asunder_tests::cases::Random;
 use asunder_tests::counting::{allocations, counted, counted_here};
 use asunder_tests::recorded::{Fnv1a, Recorded, Recording};
 
-/// Frames after which everything begins anew.
+/// Frames after which everything starts anew.
 const CYCLE: u32 = 30;
 
-/// What the sixth cycle allocates: the first began in another place than it ended, and within five a sweep has tried
-/// what it tries now and then.
+/// Allocations of the sixth cycle: the first started in another place than it ended, and within five a sweep has done
+/// everything that it does only now and then.
 ///
-/// With more threads, the least of some more: which thread takes which pairs is chance, and each must have met its
-/// longest exact question once.
+/// With several threads, the least of a few cycles: which thread takes which pairs is chance, and each must have
+/// decided its longest exact overlap once.
 fn allocations_a_cycle<S: Recording>(scene: WorldScene, count: usize, threads: usize) -> u64 {
     counted(threads, || sixth_cycle::<S>(scene, count, threads > 1))
 }
@@ -37,12 +37,12 @@ fn sixth_cycle<S: Recording>(scene: WorldScene, count: usize, by_chance: bool) -
     for _ in 0..if by_chance { 6 } else { 0 } {
         least = if least > 0 { cycle() } else { 0 };
     }
-    // There was something to be counted, and something to be read.
+    // There were allocations to count, and results to read.
     assert!(early > 0 && recorded.world.stats().candidates > 0, "{}", scene.name());
     least
 }
 
-/// Bodies: enough that the narrow phase, and in one scene refit too, is shared out where there is more than one thread.
+/// Enough bodies that the narrow phase, and in one scene refit, too, is distributed over several threads.
 fn count(scene: WorldScene) -> usize {
     match scene {
         WorldScene::ManyPyramids => 4201,
@@ -71,7 +71,7 @@ fn a_steady_scene_in_the_plane_allocates_nothing() {
     }
 }
 
-/// So many boxes, most of them moving, that the sweep is shared out, as from 5,000 boxes on; and so many at rest.
+/// So many boxes, most of them moving, that the sweep is distributed, as from 5,000 boxes on; and as many at rest.
 #[test]
 fn nor_do_sweeps_of_many_threads() {
     for (scene, count) in [(WorldScene::ManyPyramids, 12_000), (WorldScene::Mixed, 12_000)] {
@@ -80,7 +80,7 @@ fn nor_do_sweeps_of_many_threads() {
     assert_eq!(allocations_a_cycle::<Volume>(WorldScene::MostlyStatic, 12_000, 2), 0);
 }
 
-/// Who is in no pool hands each stage's work to one: rayon keeps it in a queue, whose blocks of 63 it makes anew
+/// A thread outside any pool hands each stage's work to one: rayon keeps it in a queue, and allocates new blocks of 63
 /// now and then.
 #[test]
 fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
@@ -88,7 +88,7 @@ fn a_thread_of_no_pool_allocates_a_block_of_the_queue_now_and_then() {
     assert!(taken <= u64::from(CYCLE) / 10, "{taken} in {CYCLE} frames");
 }
 
-/// Bodies that slide to and fro on hills: their contacts are moved along for some frames, and then made anew.
+/// Bodies that slide back and forth on hills: their contacts are moved along for some frames, and then made anew.
 #[test]
 fn nor_do_contacts_with_a_level() {
     let terrain = Terrain::new(800, 1.0, 20);
@@ -126,7 +126,7 @@ fn nor_do_contacts_with_a_level() {
     assert_eq!(taken, 0);
 }
 
-/// The last frames, as a game keeps them that goes back now and then.
+/// The last frames, as a game keeps them for rolling back.
 struct Kept<S: Space>([World<S>; 3]);
 
 impl<S: Space> Kept<S> {
@@ -134,7 +134,7 @@ impl<S: Space> Kept<S> {
         Self([World::new(), World::new(), World::new()])
     }
 
-    /// Writes a frame over the oldest; every fifth frame the world goes back to what is the oldest then.
+    /// Overwrites the oldest frame; every fifth frame the world is rolled back to the oldest one then.
     fn keep(&mut self, frame: u32, world: &mut World<S>) {
         self.0[frame as usize % 3].clone_from(world);
         if frame % 5 == 4 {
@@ -191,12 +191,12 @@ fn nor_do_hooks() {
     assert_eq!(taken, 0);
 }
 
-/// Frames after which a room is as it was.
+/// Frames after which a room is as before.
 const ROOM_CYCLE: u32 = 12;
 
-/// What the eighth cycle allocates in a room with ground, when a sweep has tried what it tries now and then: half of
-/// the bodies are elsewhere in every frame, the others, bullets among them, are given motions, and between two updates
-/// everything is asked.
+/// Allocations of the eighth cycle in a room with ground, when a sweep has done everything that it does only now and
+/// then: half of the bodies are elsewhere in every frame, the others, bullets among them, get motions, and between two
+/// updates all queries are run.
 fn allocations_in_a_room<S: Asker>(threads: usize) -> u64 {
     counted(threads, || {
         let mut random = Random::new(92);
@@ -222,7 +222,7 @@ fn allocations_in_a_room<S: Asker>(threads: usize) -> u64 {
                         S::set_motion(&mut world, body, S::random_motion(&mut random, 2.0));
                     }
                 }
-                // Before the update, where poses are newer than the trees, and after it.
+                // Before the update, when poses are newer than the trees, and after it.
                 for when in 0..2 {
                     for asked in &asked {
                         answers += S::list(&world, asked, &mut lists) + S::visit(&world, asked);
@@ -238,7 +238,7 @@ fn allocations_in_a_room<S: Asker>(threads: usize) -> u64 {
             allocations() - before
         };
         let early = (0..7).map(|_| cycle()).sum::<u64>();
-        // With more threads the least of some, as above.
+        // With several threads the least of a few, as above.
         let taken = (1..if threads > 1 { 6 } else { 2 }).map(|_| cycle()).min();
         assert!(early > 0 && answers > 1000 && impacts > 50 && walls > 100 && lines > 10_000);
         taken.unwrap()

@@ -1,4 +1,4 @@
-//! Random pairs beside parry3d: how often both say the same, and how far apart their numbers are.
+//! Random pairs against parry3d: how often the two agree, and how far apart their numbers are.
 //!
 //! `cargo run --release -p asunder-tests --example crosscheck -- 100000`
 
@@ -13,10 +13,10 @@ use parry3d::query;
 use parry3d::shape::SharedShape;
 use std::error::Error;
 
-/// Within this share of the pair's size of touching, parry3d's word is not held against ours.
+/// Within this share of the pair's size of touching, parry3d's answer is not compared with ours.
 const BAND: f32 = 1e-4;
 
-/// Random pairs beside parry3d: how often both say the same, and how far apart their numbers are.
+/// Random pairs against parry3d: how often the two agree, and how far apart their numbers are.
 #[derive(Parser)]
 struct Options {
     /// Pairs.
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             let theirs = query::distance(&pose_a, &*twin_a.0, &pose_b, &*twin_b.0)?.distance;
             let size = f64::from(pair.size());
             if f64::from((ours.separation - theirs).abs()) > 1e-6 * size {
-                // Who is right, by an oracle of another make.
+                // Which is right, by an independent oracle.
                 let truth = separation3((&a, &here), (&b, &there)).separation;
                 for (worst, said) in worst.iter_mut().zip([ours.separation, theirs]) {
                     *worst = worst.max((f64::from(said) - truth).abs() / size);

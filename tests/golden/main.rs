@@ -1,11 +1,11 @@
-//! Golden hashes: what every named scene and stage, and bodies on ground, say over sixty frames, bit for bit, on any
-//! number of threads, in any build.
+//! Golden hashes of the output of every named scene and stage, and of bodies on ground, over sixty frames: the same bit
+//! for bit on any number of threads, in any build.
 //!
 //! `table.txt` was made by `cargo test -p asunder-tests --test golden -- --ignored --nocapture | grep ^scene >
-//! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs
-//! between two machines, builds or thread counts is a fault, whatever the table says.
+//! tests/golden/table.txt` and is to be made again only where an output is meant to change. A row that differs between
+//! two machines, builds or thread counts is a bug, whatever the table says.
 //!
-//! `.ci/run` asks for the small scenes once more without optimisation and with the portable twins of all wide kernels.
+//! `.ci/run` runs the small scenes once more without optimisation and with the portable versions of all SIMD kernels.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "helpers of tests stop the test, as tests do")]
 
@@ -25,7 +25,7 @@ use std::mem::discriminant;
 
 const FRAMES: u32 = 60;
 
-/// What sixty frames say, as a row of the table.
+/// The output of sixty frames, as a row of the table.
 #[derive(Default)]
 struct Told {
     events: Fnv1a,
@@ -57,8 +57,7 @@ fn row<S: Recording, R: Replay<S>>(name: &str, mut recorded: Recorded<S, R>) -> 
     told.row(name)
 }
 
-/// A stage as the examples' stepper plays it: what a solver makes of contacts comes back as poses, so that whatever
-/// differs goes on differing.
+/// A stage as the examples' stepper plays it: a solver turns contacts into poses, so that any difference persists.
 fn stage_row(stage: Stage, size: usize) -> String {
     fn played<S: Recording + Playable>(mut game: Game<S>) -> Told {
         let mut told = Told::default();
@@ -83,7 +82,7 @@ fn small() -> String {
     table(|_| 301, 301, 301) + &stages(60)
 }
 
-/// So many that every stage is shared out among threads in some scene.
+/// So many bodies that every stage is distributed over threads in some scene.
 fn large() -> String {
     let count = |scene| match scene {
         WorldScene::ConvexPile => 905,
@@ -113,12 +112,12 @@ fn table(count: impl Fn(WorldScene) -> usize, in_plane: usize, on_ground: usize)
 }
 
 fn stages(size: usize) -> String {
-    // In one of them a body for ten thousand of the landscape's moves.
+    // In one of them only one body per ten thousand of the landscape moves.
     let size_of = |stage| if stage == Stage::LargeWorld { 100 * size } else { size };
     Stage::ALL.map(|stage| stage_row(stage, size_of(stage)) + "\n").concat()
 }
 
-/// The rows of these scenes, as the table has them.
+/// Asserts that these rows are in the table.
 fn check(found: &str, on: &str) {
     let golden = include_str!("table.txt");
     for row in found.lines() {
@@ -137,7 +136,7 @@ fn small_scenes_say_what_they_always_said() {
     check(&on_threads(1, small), "one thread");
 }
 
-// Apart, so that they are run side by side.
+// Separate tests, so that they run in parallel.
 
 #[test]
 fn large_scenes_say_what_they_always_said_on_one_thread() {
@@ -154,7 +153,7 @@ fn large_scenes_say_the_same_on_eight_threads() {
     check(&on_threads(8, large), "eight threads");
 }
 
-/// Of each ground, which come first: whether bodies of every kind that is there touch it at some time.
+/// For each ground, which come first: whether bodies of every kind present touch it at some time.
 fn has_all_kinds<S: Recording>(mut recorded: Recorded<S, impl Replay<S>>, grounds: usize) -> Vec<bool> {
     let bodies = S::bodies(&recorded.world);
     let kinds = bodies.iter().map(|(key, body)| (*key, discriminant(S::shape_of(body)))).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! What the narrow phase says of a case, beside what full projections of our own make of its normals and points.
+//! What the narrow phase reports for a case, with its normals and points measured by full projections of our own.
 //!
 //! One set of plain numbers for both dimensions, so that each claim is checked in one place.
 
@@ -9,17 +9,17 @@ use crate::placed::{Placed2, Placed3};
 use asunder_narrow::{Manifold2, Manifold3, Measured2, Measured3, Pair2, Pair3, Separation2, Separation3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A pair of posed shapes in either dimension, and all that may be asked about it.
+/// A pair of posed shapes in either dimension, and all queries about it.
 pub trait Asked: core::fmt::Debug + Sized {
     /// The sum of the two bounding radii, in metres.
     fn size(&self) -> f64;
-    /// What the judges say the separation is, in metres.
+    /// The separation by the oracles, in metres.
     fn true_separation(&self) -> f64;
-    /// What exact arithmetic says.
+    /// Whether they overlap by exact arithmetic.
     fn exactly_overlaps(&self) -> bool;
-    /// The pair the other way round.
+    /// The pair with A and B swapped.
     fn swapped(&self) -> Self;
-    /// Whether the library says that the shapes share a point.
+    /// Whether the library reports that the shapes share a point.
     fn overlaps(&self) -> bool;
     /// `separation(limit)`: the measured answer, or the bound.
     fn separation(&self, limit: f32) -> Result<Measured, f32>;
@@ -38,14 +38,14 @@ pub struct Measured {
     pub error: f64,
     /// Length of the reported normal.
     pub normal_length: f64,
-    /// Our own gap between the projections on the reported normal, made a unit vector.
+    /// Our own gap between the projections on the reported normal, normalised.
     pub gap_along_normal: f64,
 }
 
 /// Two reported points, one of each shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Points {
-    /// How far A's point lies outside A, in metres: no more than 0 inside.
+    /// How far A's point lies outside A, in metres: at most 0 inside.
     pub beyond_a: f64,
     /// How far B's point lies outside B, in metres.
     pub beyond_b: f64,
@@ -84,7 +84,7 @@ pub struct ContactPoint {
     pub feature: u64,
 }
 
-/// A case in space with both shapes placed by the judges.
+/// A case in space with both shapes placed by the oracles.
 #[derive(Clone, Debug)]
 pub struct Asked3 {
     case: Case3,
@@ -120,7 +120,7 @@ impl Asked3 {
     }
 
     fn points(&self, anchor_a: Vec3, anchor_b: Vec3, normal: Vec3) -> Points {
-        // The judges see everything from A's position.
+        // The oracles work relative to A's position.
         let on_a = anchor_a.as_dvec3();
         let on_b = anchor_b.as_dvec3() + (self.case.pose_b.position() - self.case.pose_a.position());
         let (between, normal) = (on_b - on_a, normal.as_dvec3().normalize());
@@ -188,7 +188,7 @@ impl Asked for Asked3 {
     }
 }
 
-/// A case in the plane with both shapes placed by the judges.
+/// A case in the plane with both shapes placed by the oracles.
 #[derive(Clone, Debug)]
 pub struct Asked2 {
     case: Case2,
@@ -224,7 +224,7 @@ impl Asked2 {
     }
 
     fn points(&self, anchor_a: Vec2, anchor_b: Vec2, normal: Vec2) -> Points {
-        // The judges see everything from A's position.
+        // The oracles work relative to A's position.
         let on_a = anchor_a.as_dvec2();
         let on_b = anchor_b.as_dvec2() + (self.case.pose_b.position() - self.case.pose_a.position());
         let (between, normal) = (on_b - on_a, normal.as_dvec2().normalize());

@@ -1,12 +1,12 @@
-//! How far a body is from ground, by its triangles one by one: what contacts on the whole ground must agree with.
+//! How far a body is from ground, triangle by triangle: what contacts with the whole ground must agree with.
 
 use asunder_geometry::glam::Vec3;
 use asunder_geometry::{Aabb3, Pose3, Shape3, Triangle3};
 use asunder_narrow::{Manifold3, Pair3, Separation3};
 use core::fmt::Display;
 
-/// The least separation of a body from triangles in its axes' world, with its error, in metres, where it is within the
-/// limit.
+/// The least separation of a posed body from triangles in the world's axes, with its error, in metres; `None` beyond
+/// the limit.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
@@ -21,7 +21,7 @@ pub fn nearest(body: &Shape3, at: &Pose3, triangles: &[[Vec3; 3]], limit: f32) -
     let mut least: Option<(f32, f32)> = None;
     let mut reach = body.bounds(at, limit);
     for &[a, b, c] in triangles {
-        // Most of a large ground is beyond what has been found.
+        // Most triangles of large ground are further away than the nearest so far.
         if !reach.overlaps(&Aabb3::from_points([a, b, c])) {
             continue;
         }
@@ -40,7 +40,7 @@ pub fn nearest(body: &Shape3, at: &Pose3, triangles: &[[Vec3; 3]], limit: f32) -
     least.map(|(separation, error)| (f64::from(separation), f64::from(error)))
 }
 
-/// What is told of a body's least separation, which must be within both errors of this one.
+/// The manifold with the least separation, which must agree with the given one within both errors.
 ///
 /// ```should_panic
 /// asunder_tests::bare_triangles::told_within(&[], (0.25, 1e-7), "a ball that nobody saw");

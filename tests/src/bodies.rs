@@ -1,4 +1,4 @@
-//! Pairs of bodies of any kind, asked as in [`answers`](crate::answers) and judged piece by piece.
+//! Pairs of bodies of any kind, queried as in [`answers`](crate::answers) and judged piece by piece.
 
 use crate::answers::{Asked, ContactPoint, Manifold, Measured, Nearest, Points};
 use crate::cases::{Case2, Case3, Truth};
@@ -7,7 +7,7 @@ use crate::exact_overlap::{exact_overlap2, exact_overlap3};
 use asunder_narrow::{Manifold2, Manifold3, Measured2, Measured3, Pair2, Pair3, Separation2, Separation3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A case in space, both bodies as pieces seen from A's position, and the judges' word on every pair of pieces.
+/// A case in space: both bodies as pieces relative to A's position, and the true separation of every pair of pieces.
 #[derive(Clone, Debug)]
 pub struct Bodies3 {
     case: Case3,
@@ -16,7 +16,8 @@ pub struct Bodies3 {
     truths: Vec<Truth<DVec3>>,
 }
 
-/// A case in the plane, both bodies as pieces seen from A's position, and the judges' word on every pair of pieces.
+/// A case in the plane: both bodies as pieces relative to A's position, and the true separation of every pair of
+/// pieces.
 #[derive(Clone, Debug)]
 pub struct Bodies2 {
     case: Case2,
@@ -25,12 +26,12 @@ pub struct Bodies2 {
     truths: Vec<Truth<DVec2>>,
 }
 
-/// The least of some separations, and its axis.
+/// The least of some separations, with its axis.
 fn least<V: Copy>(truths: &[Truth<V>]) -> Truth<V> {
     *truths.iter().min_by(|a, b| a.separation.total_cmp(&b.separation)).unwrap()
 }
 
-/// What an infinite shape adds to a pair's size: nothing.
+/// A radius for a pair's size; an infinite shape adds nothing.
 fn finite(radius: f32) -> f64 {
     if radius.is_finite() { radius.into() } else { 0.0 }
 }
@@ -60,8 +61,8 @@ impl Bodies3 {
         self.truths[part_a * self.b.len() + part_b].separation
     }
 
-    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are
-    /// apart, and how far the shapes lie from their own origins.
+    /// What the pair's rounding is relative to: its size, the distance between the positions, and how far the shapes
+    /// lie from their own origins.
     pub fn reach(&self) -> f64 {
         let Case3 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         let off_center = f64::from(shape_a.center().length()) + f64::from(shape_b.center().length());
@@ -76,7 +77,7 @@ impl Bodies3 {
 
     fn measured(&self, separation: f32, error: f32, normal: Vec3) -> Measured {
         let (normal, limit) = (normal.as_dvec3(), f64::from(separation) + f64::from(error));
-        // The axis is that of one pair of pieces, which may be any that are as near as was reported.
+        // The axis is that of one pair of pieces: any pair that is as near as the reported distance.
         let mut gaps = vec![f64::NEG_INFINITY];
         for (a, row) in self.a.iter().zip(self.truths.chunks(self.b.len())) {
             for (b, truth) in self.b.iter().zip(row).filter(|(_, truth)| truth.separation <= limit) {
@@ -106,7 +107,7 @@ impl Bodies3 {
         }
     }
 
-    /// A manifold of the library's, judged by the two pieces that it names.
+    /// One of the library's manifolds, judged by the two pieces that it names.
     pub fn judged(&self, manifold: &Manifold3) -> Manifold {
         let Manifold3 { part_a, part_b, normal, separation, error, points } = manifold;
         let (a, b) = (&self.a[*part_a as usize], &self.b[*part_b as usize]);
@@ -133,7 +134,7 @@ impl Asked for Bodies3 {
         self.truth().separation
     }
 
-    /// Of sharp, bounded, convex shapes only.
+    /// For sharp, bounded, convex shapes only.
     fn exactly_overlaps(&self) -> bool {
         let Case3 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         exact_overlap3((shape_a, pose_a), (shape_b, pose_b))
@@ -194,8 +195,8 @@ impl Bodies2 {
         self.truths[part_a * self.b.len() + part_b].separation
     }
 
-    /// The largest coordinates that the pair's own rounding is relative to: its size, how far the positions are
-    /// apart, and how far the shapes lie from their own origins.
+    /// What the pair's rounding is relative to: its size, the distance between the positions, and how far the shapes
+    /// lie from their own origins.
     pub fn reach(&self) -> f64 {
         let Case2 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         let off_center = f64::from(shape_a.center().length()) + f64::from(shape_b.center().length());
@@ -210,7 +211,7 @@ impl Bodies2 {
 
     fn measured(&self, separation: f32, error: f32, normal: Vec2) -> Measured {
         let (normal, limit) = (normal.as_dvec2(), f64::from(separation) + f64::from(error));
-        // The axis is that of one pair of pieces, which may be any that are as near as was reported.
+        // The axis is that of one pair of pieces: any pair that is as near as the reported distance.
         let mut gaps = vec![f64::NEG_INFINITY];
         for (a, row) in self.a.iter().zip(self.truths.chunks(self.b.len())) {
             for (b, truth) in self.b.iter().zip(row).filter(|(_, truth)| truth.separation <= limit) {
@@ -240,7 +241,7 @@ impl Bodies2 {
         }
     }
 
-    /// A manifold of the library's, judged by the two pieces that it names.
+    /// One of the library's manifolds, judged by the two pieces that it names.
     pub fn judged(&self, manifold: &Manifold2) -> Manifold {
         let Manifold2 { part_a, part_b, normal, separation, error, points } = manifold;
         let (a, b) = (&self.a[*part_a as usize], &self.b[*part_b as usize]);
@@ -267,7 +268,7 @@ impl Asked for Bodies2 {
         self.truth().separation
     }
 
-    /// Of sharp, bounded, convex shapes only.
+    /// For sharp, bounded, convex shapes only.
     fn exactly_overlaps(&self) -> bool {
         let Case2 { shape_a, pose_a, shape_b, pose_b } = &self.case;
         exact_overlap2((shape_a, pose_a), (shape_b, pose_b))

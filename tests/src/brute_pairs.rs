@@ -1,8 +1,8 @@
-//! All overlapping boxes, by a double loop over plain comparisons.
+//! All overlapping AABBs, by a double loop over plain comparisons.
 
 use asunder_geometry::{Aabb2, Aabb3};
 
-/// A box as rows of (least, greatest), one an axis: what the double loop compares.
+/// A box as intervals (least, greatest), one per axis: what the double loop compares.
 pub trait Sides {
     /// Least and greatest coordinate on each axis.
     fn sides(&self) -> Vec<(f32, f32)>;
@@ -20,11 +20,11 @@ impl Sides for Aabb3 {
     }
 }
 
-/// All pairs `(a, b)` with `a < b` whose closed boxes share a point and that `admit` lets through, in order.
+/// All pairs `(a, b)` with `a < b` whose closed boxes share a point and that `admit` accepts, in order.
 ///
-/// Closed intervals share a point exactly when the greater of the minima is no greater than the lesser of the
-/// maxima; for a NaN or an inverted side there is no such point. Written with intervals, not with the library's
-/// six comparisons, so that both would have to be wrong alike.
+/// Closed intervals share a point exactly when the greater of the minima is no greater than the lesser of the maxima;
+/// with a NaN or an inverted interval there is no such point. Written with intervals, not with the library's six
+/// comparisons, so that both would have to be wrong in the same way.
 pub fn brute_pairs<B: Sides>(boxes: &[B], admit: impl Fn(u32, u32) -> bool) -> Vec<(u32, u32)> {
     let sides: Vec<_> = boxes.iter().map(Sides::sides).collect();
     let mut pairs = Vec::new();
@@ -41,6 +41,6 @@ pub fn brute_pairs<B: Sides>(boxes: &[B], admit: impl Fn(u32, u32) -> bool) -> V
 
 fn shares_point(p: (f32, f32), q: (f32, f32)) -> bool {
     let is_interval = |(low, high): (f32, f32)| !low.is_nan() && !high.is_nan() && low <= high;
-    // `max` and `min` skip NaN, so both sides are asked to be intervals first.
+    // `max` and `min` skip NaN, so both sides must be checked to be intervals first.
     is_interval(p) && is_interval(q) && p.0.max(q.0) <= p.1.min(q.1)
 }

@@ -40,7 +40,7 @@ pub struct Case2 {
     pub pose_b: Pose2,
 }
 
-/// What the judges say about a pair: the Euclidean distance in a gap, minus the least translation in overlap.
+/// The oracles' answer for a pair: the Euclidean distance in a gap, minus the least translation in overlap.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth<V> {
     /// The separation, in metres.
@@ -50,7 +50,7 @@ pub struct Truth<V> {
 }
 
 impl Random {
-    /// A source whose draws depend on the seed alone.
+    /// A source whose numbers depend on the seed alone.
     pub fn new(seed: u128) -> Self {
         Self(oorandom::Rand64::new(seed))
     }
@@ -214,8 +214,8 @@ impl Random {
     /// Two solids moved together until they are `gap` shares of their size apart; a negative gap overlaps.
     pub fn near_case3(&mut self, gap: f64) -> Case3 {
         let mut case = self.case3();
-        // Each round moves B by what is left along the axis that parts best; two rounds come to rest, since the
-        // same feature then stays in front.
+        // Each round moves B by the remainder along the best separating axis. Two rounds suffice, since the same
+        // feature then decides.
         for _ in 0..4 {
             let truth = case.truth();
             let step = gap * case.size() - truth.separation;
@@ -245,7 +245,7 @@ pub fn prism(outline: &[Vec2], half: f32) -> Shape3 {
 }
 
 impl Case3 {
-    /// The pair the other way round.
+    /// The pair with A and B swapped.
     pub fn swapped(&self) -> Self {
         Self {
             shape_a: self.shape_b.clone(),
@@ -255,7 +255,7 @@ impl Case3 {
         }
     }
 
-    /// Both solids in f64, seen from A's position.
+    /// Both solids in f64, relative to A's position.
     pub fn placed(&self) -> (Placed3, Placed3) {
         let origin = self.pose_a.position();
         let place = |shape: &Shape3, pose: &Pose3| Placed3::new(&Solid::of(shape), pose, origin);
@@ -267,7 +267,7 @@ impl Case3 {
         f64::from(self.shape_a.outer_radius()) + f64::from(self.shape_b.outer_radius())
     }
 
-    /// What the judges say.
+    /// The oracles' answer.
     pub fn truth(&self) -> Truth<DVec3> {
         let (a, b) = self.placed();
         truth3(&a, &b)
@@ -275,7 +275,7 @@ impl Case3 {
 }
 
 impl Case2 {
-    /// The pair the other way round.
+    /// The pair with A and B swapped.
     pub fn swapped(&self) -> Self {
         Self {
             shape_a: self.shape_b.clone(),
@@ -285,7 +285,7 @@ impl Case2 {
         }
     }
 
-    /// Both shapes in f64, seen from A's position.
+    /// Both shapes in f64, relative to A's position.
     pub fn placed(&self) -> (Placed2, Placed2) {
         let origin = self.pose_a.position();
         let place = |shape: &Shape2, pose: &Pose2| Placed2::new(shape, pose, origin);
@@ -297,34 +297,34 @@ impl Case2 {
         f64::from(self.shape_a.outer_radius()) + f64::from(self.shape_b.outer_radius())
     }
 
-    /// What the judges say.
+    /// The oracles' answer.
     pub fn truth(&self) -> Truth<DVec2> {
         let (a, b) = self.placed();
         truth2(&a, &b)
     }
 }
 
-/// The distance where a gap shows, the best axis of the test elsewhere.
+/// The distance where there is a gap, else the best separating axis.
 pub fn truth3(a: &Placed3, b: &Placed3) -> Truth<DVec3> {
     let best = exhaustive_sat3(a, b);
     if best.gap <= 0.0 {
         return Truth { separation: best.gap, normal: best.normal };
     }
     let nearest = exhaustive_distance3(a, b);
-    // The line between two points that almost meet has a poor direction; the best axis may then be the better one.
+    // The line between two points that almost coincide has a poor direction; the best axis may then be better.
     let line = (nearest.on_b - nearest.on_a) / nearest.distance;
     let normal = if nearest.distance > 0.0 && gap3(a, b, line) > best.gap { line } else { best.normal };
     Truth { separation: nearest.distance, normal }
 }
 
-/// The distance where a gap shows, the best axis of the test elsewhere.
+/// The distance where there is a gap, else the best separating axis.
 pub fn truth2(a: &Placed2, b: &Placed2) -> Truth<DVec2> {
     let best = exhaustive_sat2(a, b);
     if best.gap <= 0.0 {
         return Truth { separation: best.gap, normal: best.normal };
     }
     let nearest = exhaustive_distance2(a, b);
-    // The line between two points that almost meet has a poor direction; the best axis may then be the better one.
+    // The line between two points that almost coincide has a poor direction; the best axis may then be better.
     let line = (nearest.on_b - nearest.on_a) / nearest.distance;
     let normal = if nearest.distance > 0.0 && gap2(a, b, line) > best.gap { line } else { best.normal };
     Truth { separation: nearest.distance, normal }

@@ -3,14 +3,14 @@
 //!
 //! ```text
 //! body       = pieces: a core with a radius, or a half-space
-//! two cores  : every candidate axis both ways (exhaustive_sat), and axes across and along that only matter where
-//!              neither core has an inside; the least distance over every pair of features; the line of that distance
+//! two cores  : every candidate axis both ways (exhaustive_sat), and axes across and along, which only matter where
+//!              neither core has an interior; the least distance over all pairs of features; the line of that distance
 //!              an axis that shows a gap  -> the distance;     none does -> the least depth over the axes
-//! radii      : taken off            half-space: the least height of a vertex            bodies: the least of all pieces
+//! radii      : subtracted           half-space: the least height of a vertex         bodies: the least of all pieces
 //! ```
-//! Any unit axis gives a true lower bound, so that more of them can do no harm; two disjoint sets are parted by the
-//! line between their closest points, so that "apart" is never missed. No early outs, no shared code with the
-//! engine, and no order of vertices is relied on: a flat polygon is all triangles of its vertices.
+//! Any unit axis gives a true lower bound, so that more of them can do no harm; two disjoint sets are separated along
+//! the line between their closest points, so that "apart" is never missed. There are no early outs, no code is shared
+//! with the engine, and no order of vertices is relied on: a flat polygon is all triangles of its vertices.
 
 use crate::cases::Truth;
 use crate::exhaustive_distance::{Nearest, exhaustive_distance2, exhaustive_distance3};
@@ -60,7 +60,7 @@ pub enum Piece2 {
     },
 }
 
-/// The pieces of a posed shape, seen from `origin`: one, or a compound's parts in order.
+/// The pieces of a posed shape, relative to `origin`: one, or a compound's parts in order.
 pub fn pieces3(shape: &Shape3, pose: &Pose3, origin: DVec3) -> Vec<Piece3> {
     let moved = pose.position() - origin;
     match shape {
@@ -98,7 +98,7 @@ fn piece3(shape: &Shape3, place: impl Fn(DVec3) -> DVec3, turn: impl Fn(DVec3) -
     Piece3::Round { core, is_solid, radius: shape.radius().into() }
 }
 
-/// A core without an inside: all its triangles, each from both sides, and all its segments.
+/// A core without an interior: all its triangles, each from both sides, and all its segments.
 fn flat_core(stored: &[Vec3], vertices: Vec<DVec3>, turn: impl Fn(DVec3) -> DVec3) -> Placed3 {
     let count = stored.len();
     let edges: Vec<[usize; 2]> = (0..count).flat_map(|j| (0..j).map(move |i| [i, j])).collect();
@@ -115,17 +115,17 @@ fn flat_core(stored: &[Vec3], vertices: Vec<DVec3>, turn: impl Fn(DVec3) -> DVec
     Placed3 { vertices, normals, facets, edges }
 }
 
-/// A vector turned by M(q)/|q|^2, by the sandwich product: the library multiplies matrices.
+/// A vector rotated by M(q)/|q|^2, by the sandwich product; the library multiplies matrices.
 pub(crate) fn turned(pose: &Pose3, v: DVec3) -> DVec3 {
     let [x, y, z, w] = pose.rotation().to_array().map(f64::from);
     let u = DVec3::new(x, y, z);
     v + (u.cross(v) * w + u.cross(u.cross(v))) * (2.0 / (u.length_squared() + w * w))
 }
 
-/// The pieces of a posed shape in the plane, seen from `origin`: one, or a compound's parts in order.
+/// The pieces of a posed shape in the plane, relative to `origin`: one, or a compound's parts in order.
 pub fn pieces2(shape: &Shape2, pose: &Pose2, origin: DVec2) -> Vec<Piece2> {
     let moved = pose.position() - origin;
-    // Complex numbers: the stored one is meant as it stands, though its length is one only up to rounding.
+    // Complex numbers: the stored one is used as it is, though its length is 1 only up to rounding.
     let number = |pose: &Pose2| DVec2::new(pose.rotation().cos().into(), pose.rotation().sin().into());
     match shape {
         Shape2::Compound(compound) => {
@@ -143,7 +143,7 @@ pub fn pieces2(shape: &Shape2, pose: &Pose2, origin: DVec2) -> Vec<Piece2> {
     }
 }
 
-/// A chain is the union of these.
+/// The segments of a chain, as shapes; the chain is their union.
 pub fn segments(chain: &Chain) -> impl Iterator<Item = Shape2> {
     (0..chain.segment_count() as u32).filter_map(|i| chain.segment(i)).map(Shape2::from)
 }
@@ -212,7 +212,7 @@ fn of_cores3(a: &Placed3, b: &Placed3, are_flat: bool) -> Truth<DVec3> {
     Truth { separation: in_gap(gap, nearest.distance, reach_of(&a.vertices) + reach_of(&b.vertices)), normal }
 }
 
-/// The distance where a gap shows. A foot may miss its facet by rounding where shapes all but touch; the gap is
+/// The distance where there is a gap. Where shapes almost touch, a foot may miss its facet by rounding; the gap is
 /// right there.
 fn in_gap(gap: f64, distance: f64, reach: f64) -> f64 {
     let is_hair = gap < 1e-13 * reach && distance > 1e-10 * reach;
@@ -274,7 +274,7 @@ pub fn separation_of2(a: &Piece2, b: &Piece2) -> Truth<DVec2> {
 fn of_cores2(a: &Placed2, b: &Placed2) -> Truth<DVec2> {
     let sat = exhaustive_sat2(a, b);
     let (mut gap, mut normal) = (sat.gap, sat.normal);
-    // A triangle and anything: its sides and the other's are all the axes there are.
+    // Where either is a polygon, the side normals of both are all the axes there are.
     if (a.vertices.len() > 2 || b.vertices.len() > 2) && gap <= 0.0 {
         return Truth { separation: gap, normal };
     }
@@ -298,13 +298,13 @@ fn of_cores2(a: &Placed2, b: &Placed2) -> Truth<DVec2> {
 }
 
 impl Piece3 {
-    /// How far a point lies outside the surface, in metres; inside, minus how deep.
+    /// How far a point lies outside the surface, in metres; inside, minus its depth.
     pub fn outside(&self, point: DVec3) -> f64 {
         let core = Placed3 { vertices: vec![point], normals: vec![], facets: vec![], edges: vec![] };
         separation_of3(self, &Self::Round { core, is_solid: false, radius: 0.0 }).separation
     }
 
-    /// The gap between projections on a unit axis from this piece to another; of a half-space, along its own normal.
+    /// The gap between projections on a unit axis from this piece to another; for a half-space, along its own normal.
     pub fn gap_along(&self, other: &Self, axis: DVec3) -> f64 {
         match (self, other) {
             (Self::Round { core, radius, .. }, Self::Round { core: far, radius: more, .. }) => {
@@ -322,13 +322,13 @@ impl Piece3 {
 }
 
 impl Piece2 {
-    /// How far a point lies outside the outline, in metres; inside, minus how deep.
+    /// How far a point lies outside the outline, in metres; inside, minus its depth.
     pub fn outside(&self, point: DVec2) -> f64 {
         let core = Placed2 { vertices: vec![point] };
         separation_of2(self, &Self::Round { core, radius: 0.0 }).separation
     }
 
-    /// The gap between projections on a unit axis from this piece to another; of a half-plane, along its own normal.
+    /// The gap between projections on a unit axis from this piece to another; for a half-plane, along its own normal.
     pub fn gap_along(&self, other: &Self, axis: DVec2) -> f64 {
         match (self, other) {
             (Self::Round { core, radius }, Self::Round { core: far, radius: more }) => {

@@ -1,4 +1,4 @@
-//! An allocator that counts what the threads of a pool ask of it. A program that counts makes it its own:
+//! An allocator that counts the calls made by chosen threads. A program that counts makes it its global allocator:
 //!
 //! ```standalone_crate
 //! use asunder_tests::counting::{Counting, allocations, counted};
@@ -20,40 +20,40 @@ use std::cell::Cell;
 use std::sync::atomic::{AtomicI64, AtomicU64, Ordering::Relaxed};
 use std::sync::{Barrier, PoisonError, RwLock};
 
-/// The system's allocator, and sums.
+/// The system's allocator, with counters.
 pub struct Counting;
 
-/// What some threads asked for.
+/// What some threads allocated.
 struct Tally {
     calls: AtomicU64,
     live: AtomicI64,
 }
 
 thread_local! {
-    // Without a destructor, so that it is there for as long as its thread, and costs no allocation itself.
+    // Without a destructor, so that it exists as long as its thread does, and makes no allocation itself.
     static TALLY: Cell<Option<&'static Tally>> = const { Cell::new(None) };
 }
 
-/// Calls that asked for memory so far, by those who are counted with this thread; 0 where it is not counted.
+/// Allocating calls so far by the threads that are counted with this one; 0 where it is not counted.
 pub fn allocations() -> u64 {
     TALLY.get().map_or(0, |tally| tally.calls.load(Relaxed))
 }
 
-/// Bytes that those who are counted with this thread asked for and have not given back; 0 where it is not counted.
+/// Bytes allocated and not freed by the threads that are counted with this one; 0 where it is not counted.
 pub fn live_bytes() -> i64 {
     TALLY.get().map_or(0, |tally| tally.live.load(Relaxed))
 }
 
-/// Threads that are counted alone may be so at the same time. What several count depends on who takes which work, the
-/// more so the busier the processors are: they have them for themselves.
+/// Threads that are counted singly may run at the same time. What several threads allocate depends on which of them
+/// takes which work, and varies more the busier the processors are: so they run with no other.
 static ALONE: RwLock<()> = RwLock::new(());
 
-/// Some bytes for each work that is counted: a thread of a pool may outlive it.
+/// A few bytes leaked per counted run: a thread of a pool may outlive it.
 fn new_tally() -> &'static Tally {
     Box::leak(Box::new(Tally { calls: AtomicU64::new(0), live: AtomicI64::new(0) }))
 }
 
-/// Runs the work on this thread, which is in no pool; no other counts.
+/// Runs the work on this thread, which is in no pool; no other thread counts.
 pub fn counted_here<T>(work: impl FnOnce() -> T) -> T {
     let _alone = ALONE.write().unwrap_or_else(PoisonError::into_inner);
     TALLY.set(Some(new_tally()));
@@ -62,7 +62,7 @@ pub fn counted_here<T>(work: impl FnOnce() -> T) -> T {
     done
 }
 
-/// Runs the work in a pool of so many threads, which are the only ones that count with it.
+/// Runs the work in a pool of this many threads, which alone are counted.
 pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let (_beside, _alone) = if threads == 1 {
         (Some(ALONE.read().unwrap_or_else(PoisonError::into_inner)), None)
@@ -72,11 +72,12 @@ pub fn counted<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let tally = new_tally();
     let pool = ThreadPoolBuilder::new().num_threads(threads);
     let pool = pool.start_handler(move |_| TALLY.set(Some(tally))).build().unwrap();
-    // The first time that a thread takes work from another it registers itself, with 2304 bytes: some time, unless now.
+    // The first time that a thread steals work it registers itself, with 2304 bytes: at any time, unless it is made to
+    // now.
     let all = Barrier::new(threads);
     pool.scope(|scope| (0..threads).for_each(|_| scope.spawn(|_| _ = all.wait())));
     let done = pool.install(work);
-    // Threads end after their pool does, and what they give back then is nobody's.
+    // Threads end after their pool does, and what they free then is not counted.
     pool.broadcast(|_| TALLY.set(None));
     done
 }
@@ -88,7 +89,7 @@ fn count(calls: u64, bytes: i64) {
     }
 }
 
-// SAFETY: every call goes on to the system's allocator as it came.
+// SAFETY: every call is passed on to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(1, layout.size() as i64);

@@ -1,4 +1,4 @@
-//! One face for both worlds, so that the model and the operation lists are written once.
+//! One trait for both worlds, so that the model and the operation lists are written once.
 
 #[macro_use]
 mod forwarded;
@@ -10,7 +10,7 @@ use asunder::slotmap::Key;
 use asunder::{Collider, Contact, Event, Hit, Layers, Space, World};
 use asunder_narrow::Hint;
 
-/// What may be changed of a body that is there.
+/// A change to an existing body.
 #[derive(Clone, Debug)]
 pub enum Change<S: Space> {
     /// `World::set_shape`.
@@ -42,7 +42,7 @@ pub enum Change<S: Space> {
 }
 
 impl<S: Engine> Change<S> {
-    /// Any of them.
+    /// A random change.
     pub fn random(random: &mut Random) -> Self {
         let groups = [0b01, 0b10, 0b11, u32::MAX];
         let mut body = S::random_body(random, 1.6);
@@ -62,7 +62,7 @@ impl<S: Engine> Change<S> {
             17 => Self::Bullet(random.below(2) == 0),
             18..20 => Self::Margin(body.get_margin()),
             _ => {
-                // A body is given back as it was; the model knows none that sleep or are disabled.
+                // A body must be returned as it was; the model knows no sleeping or disabled ones.
                 body = body.user_data(random.below(1 << 20) as u64);
                 Self::Replace(body)
             }
@@ -70,7 +70,7 @@ impl<S: Engine> Change<S> {
     }
 }
 
-/// A dimension's world, by the calls that both have.
+/// A dimension's world, by the calls that both dimensions have.
 pub trait Engine: Space + Clone + core::fmt::Debug {
     /// `World::insert`.
     fn insert(world: &mut World<Self>, body: Collider<Self>) -> Self::Key;
@@ -80,18 +80,18 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn get(world: &World<Self>, key: Self::Key) -> Option<&Collider<Self>>;
     /// `World::set_pose`: whether the key was fresh.
     fn set_pose(world: &mut World<Self>, key: Self::Key, pose: Self::Pose) -> bool;
-    /// Whether the key was fresh, and so the change was made.
+    /// Makes a change; returns whether the key was fresh.
     fn change(world: &mut World<Self>, key: Self::Key, change: &Change<Self>) -> bool;
     /// `World::set_motion`: whether the key was fresh.
     fn set_motion(world: &mut World<Self>, key: Self::Key, motion: Self::Motion) -> bool;
     /// `World::impacts`.
     fn impacts(world: &World<Self>) -> &[Hit<Self::Key, Self::Impact>];
-    /// `Pair::impact`: the share of the motion, whether they overlap at the start, and all of it.
+    /// `Pair::impact`: the fraction of the motion, whether they overlap at the start, and the impact.
     fn first_touch(
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
     ) -> Option<(f64, bool, Self::Impact)>;
-    /// `Pair::next_impact_beside`, and the share of the motion.
+    /// `Pair::next_impact_beside`, and the fraction of the motion.
     fn next_touch(
         a: (&Collider<Self>, &Self::Motion),
         b: (&Collider<Self>, &Self::Motion),
@@ -99,7 +99,7 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     ) -> Option<(f64, Self::Impact)>;
     /// `Pair::add_touches`.
     fn add_touches(a: &Collider<Self>, b: &Collider<Self>, to: &mut Vec<Self::Touch>);
-    /// A motion by up to `reach` on each axis that turns, or does not.
+    /// A motion by up to `reach` on each axis, turning or not.
     fn random_motion(random: &mut Random, reach: f64) -> Self::Motion;
     /// A motion along the first axis.
     fn shift(x: f64) -> Self::Motion;
@@ -137,9 +137,9 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn pose_of(body: &Collider<Self>) -> Self::Pose;
     /// Whether the boxes of two bodies, grown by their margins, share a point.
     fn boxes_overlap(a: &Collider<Self>, b: &Collider<Self>) -> bool;
-    /// What the narrow phase says of two bodies that overlap or are within the margin: which of both, and their
-    /// manifolds. Half-spaces that overlap without end have none.
-    /// Contact points keep to what they were made on in the last frame, which the hint says; the next one comes back.
+    /// What the narrow phase reports for two bodies that overlap or are within the margin: which of the two, and their
+    /// manifolds. Half-spaces that overlap without bound have none. Contact points keep what they were built on in the
+    /// last frame, as given by the hint; returns the next hint.
     fn meet(a: &Collider<Self>, b: &Collider<Self>, hint: Hint) -> (Hint, Met<Self>);
     /// A unit cube or square, of side 1, at `x` on the first axis.
     fn unit_at(x: f64) -> Collider<Self>;
@@ -159,7 +159,7 @@ pub fn slot_of(key: impl Key) -> u32 {
     key.data().as_ffi() as u32
 }
 
-/// What of a body a builder only ever turns on.
+/// The traits of a body that its builder can only turn on.
 #[derive(Clone, Copy, Debug)]
 pub struct Traits {
     /// `Collider::fixed`.
@@ -173,14 +173,14 @@ pub struct Traits {
 }
 
 impl Traits {
-    /// Those of a body.
+    /// The traits of a body.
     pub fn of<S: Space>(body: &Collider<S>) -> Self {
         let (fixed, sensor, bullet) = (body.is_fixed(), body.is_sensor(), body.is_bullet());
         Self { fixed, sensor, bullet, owner: body.get_owner() }
     }
 }
 
-/// A body of one's shape and pose, with what else another is, and these traits.
+/// `body` with `traits`, and everything else but shape and pose taken from `other`.
 fn with_traits<S: Space>(mut body: Collider<S>, other: &Collider<S>, traits: Traits) -> Collider<S> {
     body =
         body.layers(other.get_layers()).user_data(other.get_user_data()).margin(other.get_margin()).unwrap();
@@ -196,7 +196,7 @@ fn with_traits<S: Space>(mut body: Collider<S>, other: &Collider<S>, traits: Tra
     traits.owner.into_iter().fold(body, Collider::owner)
 }
 
-/// Gives a body some of the traits that decide whom it meets.
+/// Gives a body some of the traits that decide what it meets.
 fn with_random_traits<S: Space>(mut body: Collider<S>, random: &mut Random) -> Collider<S> {
     if random.below(6) == 0 {
         body = body.fixed();

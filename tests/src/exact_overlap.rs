@@ -2,16 +2,16 @@
 //!
 //! ```text
 //! bodies   = pieces: a core with a radius, or a half-space; compounds are all their parts      (exact::place)
-//! points   = stored vertices, turned and moved exactly: M(q)/|q|^2 and f64 positions are rational; one positive
+//! points   = stored vertices, rotated and moved exactly: M(q)/|q|^2 and f64 positions are rational; one positive
 //!            factor clears every denominator
 //! sharp    = weights >= 0, summing to 1 on each side, whose two weighted means are the same point; or an axis that
-//!            parts all points                                                                    (exact::share)
+//!            separates all points                                                               (exact::share)
 //! rounded  = the squared distance of the cores against the squared sum of the radii              (exact::distance)
 //! half     = the least height of a point, squared, against the squared radius
 //! ```
 //! It knows no faces, no edges and no tolerance. Guesses come from double-double arithmetic and are proved over
-//! integers, whichever way they go; where they fail, integers alone find the answer. [`full_program3`] and
-//! [`full_program2`] ask one linear program over all vertices instead: slow, and this judge's own judge.
+//! integers, whichever way they go; where a proof fails, integers alone find the answer. [`full_program3`] and
+//! [`full_program2`] solve one linear program over all vertices instead: slow, and an oracle for this oracle.
 
 use crate::exact::distance::distance_to_radius;
 use crate::exact::place::{Cores, Piece, Point, dot, minus, pieces2, pieces3, times};
@@ -23,14 +23,14 @@ use std::cmp::Ordering;
 
 pub use crate::exact::simplex::hulls_share_point;
 
-/// How two shapes lie: the sign of their separation.
+/// How two shapes relate: the sign of their separation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Relation {
     /// They share no point: the separation is positive.
     Apart,
-    /// They share a point, and the least translation parts them: the separation is zero.
+    /// They share a point, and an arbitrarily small translation separates them: the separation is zero.
     Touching,
-    /// They share points, and no translation up to some length parts them: the separation is negative.
+    /// They share points, and no translation below some length separates them: the separation is negative.
     Overlapping,
 }
 
@@ -44,22 +44,23 @@ pub fn exact_overlap2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> bool {
     any_pair_shares(&pieces2(a, b))
 }
 
-/// How two posed shapes lie. Up to four linear programs dearer than [`exact_overlap3`] for sharp shapes.
+/// How two posed shapes relate. Costs up to four linear programs more than [`exact_overlap3`] for sharp shapes.
 pub fn exact_relation3(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) -> Relation {
     greatest_relation(&pieces3(a, b))
 }
 
-/// How two posed shapes in the plane lie. Up to three linear programs dearer than [`exact_overlap2`] for sharp shapes.
+/// How two posed shapes in the plane relate. Costs up to three linear programs more than [`exact_overlap2`] for sharp
+/// shapes.
 pub fn exact_relation2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> Relation {
     greatest_relation(&pieces2(a, b))
 }
 
-/// As [`exact_overlap3`], of sharp, convex, bounded shapes, by one linear program over all vertices.
+/// As [`exact_overlap3`], for sharp, convex, bounded shapes, by one linear program over all vertices.
 pub fn full_program3(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) -> bool {
     full_program(&pieces3(a, b))
 }
 
-/// As [`exact_overlap2`], of sharp, convex, bounded shapes, by one linear program over all vertices.
+/// As [`exact_overlap2`], for sharp, convex, bounded shapes, by one linear program over all vertices.
 pub fn full_program2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> bool {
     full_program(&pieces2(a, b))
 }
@@ -99,7 +100,7 @@ fn greatest_relation(pieces: &[Vec<Piece>; 2]) -> Relation {
     pairs(pieces).map(of_pair).max().expect("a body has a piece")
 }
 
-/// From the order of a distance and a radius.
+/// From how a distance compares with a radius.
 fn relation(order: Ordering) -> Relation {
     match order {
         Ordering::Greater => Relation::Apart,
@@ -108,7 +109,7 @@ fn relation(order: Ordering) -> Relation {
     }
 }
 
-/// Two pieces that are both bounded.
+/// Two pieces as cores, if both are bounded.
 fn cores(a: &Piece, b: &Piece) -> Option<Cores> {
     match (a, b) {
         (
@@ -119,7 +120,7 @@ fn cores(a: &Piece, b: &Piece) -> Option<Cores> {
     }
 }
 
-/// The order of the separation of two pieces and zero, at least one of which is a half-space.
+/// How the separation of two pieces, at least one of which is a half-space, compares with zero.
 fn to_half(a: &Piece, b: &Piece) -> Ordering {
     match (a, b) {
         (Piece::Half { normal, at, denominator }, Piece::Round { points, denominator: other, radius }) => {
@@ -138,7 +139,7 @@ fn to_half(a: &Piece, b: &Piece) -> Ordering {
             Piece::Half { normal, at, denominator },
             Piece::Half { normal: facing, at: there, denominator: other },
         ) => {
-            // Only normals that look exactly away from each other leave a gap, or nothing but a plane.
+            // Only exactly opposite normals leave a gap, or share just a plane.
             let minors = (0..normal.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
             let is_parallel =
                 minors.into_iter().all(|(i, j)| &normal[i] * &facing[j] == &normal[j] * &facing[i]);

@@ -1,6 +1,6 @@
-//! Points in the plane as integers, and what is simple, convex or inside by nothing but their signs.
+//! Points in the plane as integers; whether outlines are simple, convex or contain a point, from exact signs alone.
 //!
-//! Every question is asked of all pairs, without sorting and without sweeps. Coordinates become integers times one
+//! Every question loops over all pairs, without sorting and without sweeps. Coordinates become integers times one
 //! common power of two; where those are short the sums are done in i128, else in big integers.
 
 use crate::integers::common_integers;
@@ -15,14 +15,14 @@ pub struct ExactPlane {
     long: Vec<[BigInt; 2]>,
 }
 
-/// How two edges of an outline meet, other than where one ends and the next begins.
+/// How two edges of an outline meet, except where one ends and the next begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Meeting {
     /// They do not.
     Apart,
-    /// In one point inside both.
+    /// In one point interior to both.
     Crossing,
-    /// In one point that ends one of them.
+    /// In one point that is an end of one of them.
     Touching,
     /// In more than a point.
     Overlapping,
@@ -70,7 +70,7 @@ impl ExactPlane {
         ((&b[0] - &a[0]) * (&c[1] - &a[1])).cmp(&((&b[1] - &a[1]) * (&c[0] - &a[0])))
     }
 
-    /// Whether two numbers name one place.
+    /// Whether two indices name the same place.
     pub fn same(&self, a: usize, b: usize) -> bool {
         self.order(0, a, b).is_eq() && self.order(1, a, b).is_eq()
     }
@@ -98,7 +98,7 @@ impl ExactPlane {
         self.segments(e, f)
     }
 
-    /// How two segments meet. Ends with one number are the same end, where they may.
+    /// How two segments meet. Ends with the same index are one end, where the segments may meet.
     pub fn segments(&self, e: [usize; 2], f: [usize; 2]) -> Meeting {
         let ends_on = |[from, to]: [usize; 2], other: [usize; 2]| {
             [from, to].into_iter().filter(|&end| self.on_segment(end, other)).collect::<Vec<usize>>()
@@ -120,7 +120,7 @@ impl ExactPlane {
         }
     }
 
-    /// Whether the outline of the first `count` points is simple: no two vertices in one place, no edges that meet.
+    /// Whether the outline of the first `count` points is simple: no two vertices at one place, and no edges that meet.
     pub fn is_simple(&self, count: usize) -> bool {
         let pairs = || (0..count).flat_map(|b| (0..b).map(move |a| (a, b)));
         pairs().all(|(a, b)| !self.same(a, b))
@@ -136,8 +136,8 @@ impl ExactPlane {
         round.iter().zip(next).map(pair).sum()
     }
 
-    /// Whether a loop turns left at every vertex and has none twice on a line through its neighbours: each side has all
-    /// other vertices strictly to its left.
+    /// Whether a loop turns left at every vertex and goes around once: each side has all other vertices strictly to its
+    /// left.
     pub fn is_strictly_convex(&self, round: &[usize]) -> bool {
         let n = round.len();
         n >= 3
@@ -147,7 +147,7 @@ impl ExactPlane {
             })
     }
 
-    /// Whether some side of one of two convex loops has all of the other on its outer side or on it.
+    /// Whether some side of one of two convex loops has all of the other on its outer side or on its line.
     pub fn are_disjoint_inside(&self, one: &[usize], other: &[usize]) -> bool {
         let splits = |one: &[usize], other: &[usize]| {
             let n = one.len();
@@ -170,8 +170,8 @@ impl ExactPlane {
         if crossed.count() % 2 == 1 { Ordering::Greater } else { Ordering::Less }
     }
 
-    /// The corners of the hull of some points, counter-clockwise from the least, by gift wrapping. Empty where they
-    /// span no area.
+    /// The corners of the hull of some points, counter-clockwise from the least, by gift wrapping. Empty if they span
+    /// no area.
     pub fn hull(&self, points: &[usize]) -> Vec<usize> {
         let Some(&start) = points.iter().min_by(|&&a, &&b| self.long[a].cmp(&self.long[b])) else {
             return Vec::new();
@@ -193,7 +193,7 @@ impl ExactPlane {
         if hull.len() < 3 { Vec::new() } else { hull }
     }
 
-    /// Whether a point lies within `radius` of a convex loop, or in it. The radius is the x of another of the points.
+    /// Whether a point lies in a convex loop, or within `radius` of it. The radius is the x of another of the points.
     pub fn is_within(&self, point: usize, round: &[usize], radius: usize) -> bool {
         let n = round.len();
         let limit = &self.long[radius][0] * &self.long[radius][0];

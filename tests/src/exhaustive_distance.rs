@@ -1,9 +1,9 @@
-//! The Euclidean distance over every pair of features, f64.
+//! The Euclidean distance over every pair of features, in f64.
 //!
 //! Two disjoint convex polyhedra are closest at a vertex and a facet or at two edges (or at a part of these). Every
-//! candidate is a pair of points of the two shapes, so that none can be too short; and the gap along the line
-//! between the winners proves that nothing is closer (`tests/suite/oracles.rs` holds the one against the other).
-//! Overlapping shapes have no distance: ask [`exhaustive_sat`](crate::exhaustive_sat) first.
+//! candidate is a pair of points of the two shapes, so that none can be too short; and the gap along the line between
+//! the closest ones proves that nothing is closer (`tests/suite/oracles.rs` compares the two). Overlapping shapes have
+//! no distance: use [`exhaustive_sat`](crate::exhaustive_sat) first.
 
 use crate::placed::{Placed2, Placed3};
 use glam::{DVec2, DVec3};
@@ -69,7 +69,7 @@ pub fn exhaustive_distance2(a: &Placed2, b: &Placed2) -> Nearest<DVec2> {
     nearest
 }
 
-/// The foot of the perpendicular from a point to a facet, if it falls inside. If not, an edge is nearer.
+/// The foot of the perpendicular from a point to a facet, if it is inside the facet. If not, an edge is nearer.
 fn foot_in_facet(solid: &Placed3, face: usize, point: DVec3) -> Option<DVec3> {
     let (normal, corners) = (solid.normals[face], &solid.facets[face]);
     let height = normal.dot(point - solid.vertices[corners[0]]);
@@ -96,7 +96,7 @@ fn foot_on_segment2([from, to]: [DVec2; 2], point: DVec2) -> DVec2 {
     from + along * ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0)
 }
 
-/// The four ends against the other segment, and the common perpendicular where it meets both.
+/// The four ends against the other segment, and the common perpendicular if it meets both.
 fn segment_candidates(a: [DVec3; 2], b: [DVec3; 2], consider: &mut impl FnMut(DVec3, DVec3)) {
     b.iter().for_each(|&end| consider(foot_on_segment3(a, end), end));
     a.iter().for_each(|&end| consider(end, foot_on_segment3(b, end)));

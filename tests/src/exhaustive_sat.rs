@@ -1,14 +1,14 @@
-//! The separating axis test without early outs: every candidate axis, full projections, f64.
+//! The separating axis test without early outs: every candidate axis, full projections, in f64.
 //!
-//! The separation of two convex sets is the maximum over unit axes n of
-//! `min over B of n.x - max over A of n.x`. In overlap it is attained at a facet normal of the Minkowski
-//! difference: a facet normal of A, one of B turned round, or the cross product of an edge of each (Gottschalk, Lin
-//! and Manocha, "OBBTree", 1996). In a gap the same axes give a lower bound, and the sign.
+//! The separation of two convex sets is the maximum over unit axes n of `min over B of n.x - max over A of n.x`. In
+//! overlap it is attained at a facet normal of the Minkowski difference: a facet normal of A, one of B negated, or the
+//! cross product of an edge of each (Gottschalk, Lin and Manocha, "OBBTree", 1996). In a gap the same axes give a lower
+//! bound, and the sign.
 
 use crate::placed::{Placed2, Placed3};
 use glam::{DVec2, DVec3};
 
-/// What kind of axis won.
+/// The kind of the best axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axis {
     /// A facet normal of A; in the plane, an edge normal.
@@ -19,14 +19,14 @@ pub enum Axis {
     Edges,
 }
 
-/// The best of one kind of axis.
+/// The best axis of one kind.
 #[derive(Clone, Copy, Debug)]
 pub struct Best<V> {
     /// The gap along the axis, in metres: negative where the projections overlap.
     pub gap: f64,
     /// The unit axis, from A to B.
     pub normal: V,
-    /// What kind of axis it is.
+    /// The kind of axis.
     pub axis: Axis,
 }
 
@@ -57,8 +57,8 @@ pub fn best_of_kind3(a: &Placed3, b: &Placed3, axis: Axis) -> Best<DVec3> {
                 let along_a = (a.vertices[q] - a.vertices[p]).normalize();
                 for &[r, s] in &b.edges {
                     let cross = along_a.cross((b.vertices[s] - b.vertices[r]).normalize());
-                    // Whatever axis comes out of two nearly parallel edges, its projections are true bounds; only
-                    // a cross product of exactly zero has no direction at all.
+                    // For two nearly parallel edges, whatever axis results, its projections are true bounds; only a
+                    // cross product of exactly zero has no direction.
                     if let Some(normal) = cross.try_normalize() {
                         consider(normal);
                         consider(-normal);

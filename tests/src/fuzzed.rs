@@ -1,9 +1,9 @@
-//! What must hold of shapes made from any bytes whatever: the bodies of the fuzz targets in `fuzz/`, and of their
-//! seeded run in `tests/suite/fuzzed.rs`.
+//! What must hold for shapes made from any bytes: the bodies of the fuzz targets in `fuzz/`, and of their seeded run in
+//! `tests/suite/fuzzed.rs`.
 //!
-//! The first byte chooses how the rest becomes points: raw bits of f32, with NaN, infinities and subnormals; a
-//! lattice of whole numbers, full of repeated, collinear and cocircular points; or a fine lattice far from the
-//! origin, where one step is a rounding. The second byte is a number that the target may use.
+//! The first byte chooses how the rest becomes points: raw bits of f32, with NaN, infinities and subnormals; a lattice
+//! of whole numbers, full of repeated, collinear and cocircular points; or a fine lattice far from the origin, where
+//! one step is one rounding. The second byte is a number that the target may use.
 
 use crate::exact_plane::{ExactPlane, Meeting};
 use crate::outlines::untangled;
@@ -13,7 +13,7 @@ use asunder_geometry::{
 };
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// The most points that a target makes of its bytes: the judges compare all pairs.
+/// The most points that a target makes of its bytes: the oracles compare all pairs.
 const MAX_POINTS: usize = 40;
 
 /// Hulls in space: made from points, of any dimension, and simplified.
@@ -59,7 +59,7 @@ pub fn polygon(data: &[u8]) {
     check_polygons(&points, usize::from(number));
 }
 
-/// What must hold of the polygons made of any points.
+/// Checks the polygons made of any points.
 pub fn check_polygons(points: &[Vec2], limit: usize) {
     let (taken, hull) = (Polygon::new(points), Polygon::hull_of(points));
     let simple = Polygon::simplify(points, limit);
@@ -67,7 +67,7 @@ pub fn check_polygons(points: &[Vec2], limit: usize) {
         assert!(taken.is_err() && hull.is_err() && simple.is_err(), "point {bad} of {points:?} is accepted");
         return;
     }
-    // A bound on the error joins the points as an x, so that all are measured in one unit.
+    // The error bound joins the points as an x coordinate, so that all are in one unit.
     let error = simple.as_ref().map_or(0.0, Polygon::error);
     let bound = DVec2::new(f64::from(error), 0.0);
     let exact = ExactPlane::new(points.iter().map(|p| p.as_dvec2()).chain([bound]));
@@ -89,7 +89,8 @@ pub fn check_polygons(points: &[Vec2], limit: usize) {
             assert_eq!(exact.doubled_area(&found), exact.doubled_area(&all), "{points:?}");
             check_polygon(polygon, 0.0);
         }
-        // A convex outline is nothing but its hull's corners in order: where it has no other points, it must be taken.
+        // A convex outline consists of exactly its hull's corners in order: if it has no other points, it must be
+        // accepted.
         Err(error) => assert!(
             hull.is_err() || !cycles_agree(&exact, &all, &wrapped),
             "{error}, but the outline is its hull: {points:?}"
@@ -151,18 +152,18 @@ fn check_refusal(error: PolygonError, points: &[Vec2]) {
     }
 }
 
-/// Concave outlines: refused for a reason that is true, or split without a gap and without an overlap.
+/// Concave outlines: rejected for a true reason, or split without gaps and overlaps.
 pub fn decompose(data: &[u8]) {
     let (number, values) = values(data);
     let mut outline: Vec<Vec2> = values.chunks_exact(2).take(MAX_POINTS).map(Vec2::from_slice).collect();
-    // As they come, few outlines are simple: three in four are untangled first.
+    // Few outlines are simple as they come: three in four are untangled first.
     if number % 4 != 0 && outline.iter().all(|p| p.is_finite()) {
         outline = untangled(outline);
     }
     let _ = check_decomposition(&outline);
 }
 
-/// What must hold of any outline. Returns whether it was split, and into how many parts.
+/// Checks the decomposition of any outline. Returns whether it was split, and into how many parts.
 pub fn check_decomposition(outline: &[Vec2]) -> Result<usize, DecomposeError> {
     let found = decomposed(outline);
     let count = outline.len();
@@ -172,7 +173,7 @@ pub fn check_decomposition(outline: &[Vec2]) -> Result<usize, DecomposeError> {
             DecomposeError::TooFewVertices { count: told } => assert!(told == count && count < 3),
             DecomposeError::TooManyVertices { count: told } => assert!(told == count && count > 4096),
             DecomposeError::NotFinite { vertex } => assert!(!outline[vertex].is_finite()),
-            // A circle about a part's centre reaches less than twice as far as its furthest vertex.
+            // A circle about a part's centre reaches less than twice as far as the part's furthest vertex.
             DecomposeError::TooLarge { vertex } => {
                 let reach = outline.iter().map(|p| p.as_dvec2().length()).fold(0.0, f64::max);
                 assert!(vertex < count && reach > 0.5 * f64::from(MAX_RADIUS), "{outline:?}");
@@ -235,7 +236,8 @@ fn check_parts(parts: &Compound2, exact: &mut ExactPlane, outline: &[Vec2]) {
         for other in &loops[..number] {
             assert!(exact.are_disjoint_inside(part, other), "{part:?} and {other:?} of {outline:?}");
         }
-        // No vertex of the outline is inside, no side crosses it, and a point inside is in the outline: so all is.
+        // No vertex of the outline is inside, no side crosses it, and one point inside is in the outline: so the whole
+        // part is.
         assert!(
             whole.iter().all(|&p| part.contains(&p) || exact.place(p, part).is_le()),
             "{part:?} of {outline:?}"
@@ -243,7 +245,7 @@ fn check_parts(parts: &Compound2, exact: &mut ExactPlane, outline: &[Vec2]) {
         let middle = exact.add_middle([part[0], part[1], part[2]]);
         assert!(exact.place(middle, &whole).is_gt(), "{part:?} of {outline:?}");
     }
-    // Nothing is left out but what is too small for a shape.
+    // Nothing is left out except parts too small for a shape.
     let is_complete = area == 0.into();
     assert!(is_complete || area > 0.into() && has_close_vertices(outline), "{area} left of {outline:?}");
     if is_complete {
@@ -257,7 +259,7 @@ fn reflex_vertices(exact: &ExactPlane, whole: &[usize]) -> usize {
     (0..n).filter(|&i| exact.turn(whole[i], whole[(i + 1) % n], whole[(i + 2) % n]).is_lt()).count()
 }
 
-/// Points in the middle between vertices, which are often on an edge or on a diagonal, are held where they are inside.
+/// Midpoints between vertices, which are often on an edge or a diagonal, are contained if they are inside the outline.
 fn check_samples(parts: &Compound2, whole: &[usize], outline: &[Vec2]) {
     let n = outline.len();
     let middle = |a: Vec2, b: Vec2| ((a.as_dvec2() + b.as_dvec2()) * 0.5).as_vec2();
@@ -270,7 +272,7 @@ fn check_samples(parts: &Compound2, whole: &[usize], outline: &[Vec2]) {
     }
 }
 
-/// The points that a polygon's vertices are, bit for bit.
+/// The indices of a polygon's vertices among the points, bit for bit.
 fn numbers(polygon: &Polygon, points: &[Vec2]) -> Vec<usize> {
     let bits = |v: Vec2| v.to_array().map(f32::to_bits);
     let number = |v: &Vec2| points.iter().position(|p| bits(*p) == bits(*v));
@@ -281,13 +283,13 @@ fn numbers(polygon: &Polygon, points: &[Vec2]) -> Vec<usize> {
         .collect()
 }
 
-/// Whether two loops are the same places in the same order, wherever they start.
+/// Whether two loops visit the same places in the same order, wherever they start.
 fn cycles_agree(exact: &ExactPlane, one: &[usize], other: &[usize]) -> bool {
     let n = one.len();
     n == other.len() && (0..n).any(|shift| (0..n).all(|i| exact.same(one[i], other[(i + shift) % n])))
 }
 
-/// A number and the coordinates that bytes stand for.
+/// The number and the coordinates that the bytes encode.
 fn values(data: &[u8]) -> (u8, Vec<f32>) {
     let [mode, number, rest @ ..] = data else { return (0, Vec::new()) };
     let raw = |four: &[u8]| f32::from_le_bytes([four[0], four[1], four[2], four[3]]);

@@ -28,7 +28,7 @@ fn mantissa_and_exponent(value: f64) -> (i64, i32) {
     (if value.is_sign_negative() { -magnitude } else { magnitude }, exponent + shift as i32)
 }
 
-/// The exponent of the last set bit of a finite value: it is an integer times 2 to that power. `None` of zero.
+/// The exponent of the last set bit of a finite value: it is an integer times 2 to that power. `None` for zero.
 pub fn last_exponent(value: f64) -> Option<i32> {
     let (mantissa, exponent) = mantissa_and_exponent(value);
     (mantissa != 0).then_some(exponent)

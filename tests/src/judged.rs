@@ -1,14 +1,14 @@
-//! Whether two bodies of a world share a point, and how far apart they are, without asking the narrow phase.
+//! Whether two bodies of a world share a point, and how far apart they are, without using the narrow phase.
 //!
 //! ```text
 //! body      = convex parts: itself, a compound's parts, a mesh's or field's triangles, a chain's segments
 //! two parts : the separation by all axes and all pairs of features, in f64                     (cores)
-//!             where that is within 1e-7 m of zero, yes or no over integers                     (exact_overlap)
+//!             where that is within 1e-7 m of zero, the overlap decision over integers          (exact_overlap)
 //! one-sided : a triangle or segment counts for the parts whose centres are in front of it
 //! bodies    = the least of all parts
 //! ```
-//! Parts are left out only where their plain boxes are further apart than what was found already, or than anybody asks
-//! for.
+//! Parts are skipped only where their plain AABBs are further apart than the least separation so far, or than the
+//! question asks for.
 
 mod plane;
 mod volume;
@@ -17,16 +17,16 @@ use crate::engine::Engine;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Numbers further from zero than this, in metres, say yes or no: f64 is off by some 1e-15 of a few metres, or, where
-/// edges are nearly parallel, by as much as their axis leans, which is far less as well.
+/// Separations further from zero than this, in metres, decide overlap: f64 is off by some 1e-15 of a few metres, or,
+/// where edges are nearly parallel, by the tilt of their axis, which is far less than this as well.
 const SURE: f64 = 1e-7;
 
-/// Centres nearer than this to a one-sided plane, in metres, may be on either side of it.
+/// A centre nearer than this to a one-sided plane, in metres, may be on either side of it.
 const EDGEWISE: f64 = 1e-6;
 
-/// What the judge must know of a dimension. Points of the plane have no height.
+/// What the oracle needs of a dimension. Points of the plane have z = 0.
 pub trait Judged: Engine {
-    /// A convex part where it is.
+    /// A posed convex part.
     type Piece: Clone + core::fmt::Debug;
     /// The convex parts of a shape.
     fn parts(shape: &Self::Shape) -> Vec<Part<Self>>;
@@ -36,15 +36,15 @@ pub trait Judged: Engine {
     fn separation(a: &Self::Piece, b: &Self::Piece) -> f64;
     /// Whether two posed convex shapes share a point, exactly.
     fn share_a_point(a: (&Self::Shape, &Self::Pose), b: (&Self::Shape, &Self::Pose)) -> bool;
-    /// Where a motion leads in a share of it.
+    /// The pose after a fraction of a motion.
     fn pose_in(motion: &Self::Motion, from: &Self::Pose, fraction: f64) -> Self::Pose;
     /// A motion's displacement, in metres.
     fn displacement(motion: &Self::Motion) -> DVec3;
-    /// How far a motion's turn brings a point that is a metre from its axis, as the crow flies.
+    /// How far a motion's rotation moves a point a metre from its axis, in a straight line.
     fn chord(motion: &Self::Motion, from: &Self::Pose) -> f64;
-    /// The share of the motion that is done at an impact, and how far apart the bodies are then at most.
+    /// The fraction of the motion at an impact, and an upper bound of the distance between the bodies then.
     fn fraction_and_error(impact: &Self::Impact) -> (f64, f64);
-    /// What a manifold tells of the separation, and how far that may be off.
+    /// The separation that a manifold reports, and its error.
     fn told(manifold: &Self::Manifold) -> [f64; 2];
 }
 
@@ -53,32 +53,32 @@ pub trait Judged: Engine {
 pub struct Part<S: Judged> {
     /// The part alone, to be posed as the body is.
     pub shape: S::Shape,
-    /// The same, where it is in the body.
+    /// The same, posed within the body.
     pub piece: S::Piece,
-    /// The centre by which one-sided ground tells whether it sees the part; half-spaces have none.
+    /// The centre by which one-sided ground decides whether it faces the part; half-spaces have none.
     pub center: Option<DVec3>,
-    /// Of one-sided ground: the normal of the front, and a point of it.
+    /// For one-sided ground: the normal of the front, and a point of it.
     pub front: Option<[DVec3; 2]>,
-    /// How far its points are from the body's position.
+    /// The distance of its furthest point from the body's position.
     pub reach: f64,
 }
 
-/// A part where it is in the world.
+/// A posed part.
 #[derive(Clone, Debug)]
 pub struct Place<S: Judged> {
-    /// All of it.
+    /// The part's geometry.
     pub piece: S::Piece,
-    /// The least corner of its box.
+    /// The least corner of its AABB.
     pub low: DVec3,
-    /// The greatest corner of its box.
+    /// The greatest corner of its AABB.
     pub high: DVec3,
-    /// As of the part.
+    /// As in [`Part`].
     pub center: Option<DVec3>,
-    /// As of the part.
+    /// As in [`Part`].
     pub front: Option<[DVec3; 2]>,
 }
 
-/// A body where it is.
+/// A posed body.
 #[derive(Clone, Debug)]
 pub struct Stand<S: Judged> {
     parts: Arc<Vec<Part<S>>>,
@@ -86,23 +86,23 @@ pub struct Stand<S: Judged> {
     places: Vec<Place<S>>,
 }
 
-/// The judge's word on two bodies.
+/// The oracle's answer for two bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Word {
     /// Whether they share a point.
     pub overlapping: bool,
-    /// The separation, in metres; of bodies that are further apart than was asked for, a lower bound.
+    /// The separation, in metres; for bodies further apart than the question asks for, a lower bound.
     pub separation: f64,
-    /// Whether rounding says which side of one-sided ground a part is on: then all of this may be otherwise.
+    /// Whether rounding decides which side of one-sided ground a part is on: then none of this is certain.
     pub is_doubtful: bool,
 }
 
-/// What is asked of the judge.
+/// What the oracle is asked.
 #[derive(Clone, Copy, Debug)]
 pub struct Question {
-    /// Up to which separation it is to be told, in metres.
+    /// The separation up to which it is to be measured, in metres.
     pub within: f64,
-    /// Whether one-sided ground is seen from its front only.
+    /// Whether one-sided ground is met from its front only.
     pub has_sides: bool,
 }
 
@@ -112,7 +112,7 @@ impl<S: Judged> Stand<S> {
         Self::of_parts(Arc::new(S::parts(shape)), pose)
     }
 
-    /// The same body elsewhere.
+    /// The same body at another pose.
     pub fn at(&self, pose: &S::Pose) -> Self {
         Self::of_parts(Arc::clone(&self.parts), pose)
     }
@@ -122,24 +122,24 @@ impl<S: Judged> Stand<S> {
         Self { parts, pose: *pose, places }
     }
 
-    /// How far its points are from its position.
+    /// The distance of its furthest point from its position.
     pub fn reach(&self) -> f64 {
         self.parts.iter().map(|part| part.reach).fold(0.0, f64::max)
     }
 
-    /// The corners of the box around all of it.
+    /// The corners of the AABB around all of it.
     pub fn corners(&self) -> [DVec3; 2] {
         let low = self.places.iter().map(|place| place.low).reduce(DVec3::min);
         let high = self.places.iter().map(|place| place.high).reduce(DVec3::max);
         [low.unwrap(), high.unwrap()]
     }
 
-    /// Whether it has a front, and nothing behind.
+    /// Whether it has a front only.
     pub fn is_one_sided(&self) -> bool {
         self.parts.iter().any(|part| part.front.is_some())
     }
 
-    /// The judge's word on this body and another.
+    /// The oracle's answer for this body and another.
     pub fn meet(&self, other: &Self, question: Question) -> Word {
         let mut word = Word { overlapping: false, separation: f64::INFINITY, is_doubtful: false };
         for (a, part) in self.places.iter().zip(self.parts.iter()) {
@@ -170,8 +170,7 @@ impl<S: Judged> Stand<S> {
     }
 }
 
-/// Whether the side that one of two parts is seen from is the one that the other is on; nothing where rounding would
-/// tell.
+/// Whether the centre of one part is in front of the other, if that is one-sided; `None` where rounding would decide.
 fn is_seen<S: Judged>(a: &Place<S>, b: &Place<S>) -> Option<bool> {
     let [normal, at, center] = match (a.front, b.front) {
         (Some([normal, at]), _) => [normal, at, b.center?],
@@ -182,7 +181,7 @@ fn is_seen<S: Judged>(a: &Place<S>, b: &Place<S>) -> Option<bool> {
     (height.abs() > EDGEWISE).then_some(height > 0.0)
 }
 
-/// How far apart two boxes are along the axis that parts them best; less than zero where they overlap.
+/// How far apart two AABBs are along their best separating axis; negative where they overlap.
 pub fn gap_of_boxes([low, high]: [DVec3; 2], [other_low, other_high]: [DVec3; 2]) -> f64 {
     (other_low - high).max(low - other_high).max_element()
 }

@@ -1,32 +1,32 @@
-//! The judges of asunder's answers: slow, plain, and made without its algorithms.
+//! The oracles for asunder's answers: slow, plain, and made without its algorithms.
 //!
-//! - [`answers`]: what the narrow phase says of a case, measured by full projections of our own
-//! - [`bare_triangles`]: how far a body is from ground, by its triangles one by one
-//! - [`brute_pairs`]: every overlapping pair of boxes, by a double loop
-//! - [`solid`]: facets and edges of a hull, from nothing but its vertices, decided exactly
-//! - [`placed`]: a shape where it is, in f64
+//! - [`answers`]: what the narrow phase reports for a case, measured by full projections of our own
+//! - [`bare_triangles`]: how far a body is from ground, triangle by triangle
+//! - [`brute_pairs`]: every overlapping pair of AABBs, by a double loop
+//! - [`solid`]: facets and edges of a hull, from its vertices alone, decided exactly
+//! - [`placed`]: posed shapes in f64
 //! - [`exhaustive_sat`]: the separation along every candidate axis, without early outs
 //! - [`exhaustive_distance`]: the distance over every pair of features
 //! - [`exact_overlap`]: whether two shapes share a point, proved over integers ([`exact`] holds its parts)
 //! - [`precise`]: the separation of two shapes in double-double, with its own error
 //! - [`cores`]: the separation of bodies of any kind, piece by piece: rounded cores, half-spaces, compounds
-//! - [`bodies`]: pairs of such bodies, asked as in [`answers`]
-//! - [`shapes`]: seeded shapes of every kind, and pairs of them in every kind of place
+//! - [`bodies`]: pairs of such bodies, queried as in [`answers`]
+//! - [`shapes`]: seeded shapes of every kind, and pairs of them in every kind of relative pose
 //! - [`cases`]: seeded shapes, poses and pairs, far apart, deep, and touching
 //! - [`exact_plane`]: areas, crossings and containment in the plane, over integers
 //! - [`outlines`]: seeded outlines, simple and not: stars, combs, spirals, lattices, slivers
-//! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, with all that must hold of them; `fuzz/` runs the same
+//! - [`fuzzed`]: hulls, polygons and outlines from raw bytes, and the checks on them; `fuzz/` runs the same
 //! - [`report`]: hard cases, family by family: what we and parry3d get wrong, and at what cost
-//! - [`solver`]: a small rigid-body solver, for bodies that shall stand on our manifolds
+//! - [`solver`]: a small rigid-body solver, for bodies that have to stand on our manifolds
 //! - [`counting`]: an allocator that counts
-//! - [`recorded`]: the named worlds, played frame by frame, and what they say in one number
-//! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played as those are
-//! - [`engine`], [`played`]: one face for both worlds, and for what is done to them
-//! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and the model of a
-//!   world that says so
+//! - [`recorded`]: the named worlds, played frame by frame, and a hash of what they report
+//! - [`rolling`]: bodies that roll, fall, hop and creep over ground, played in the same way
+//! - [`engine`], [`played`]: one trait for both worlds, and for the operations on them
+//! - [`judged`], [`naive_world`]: which bodies touch, by [`cores`] and [`exact_overlap`] alone, and a naive model of a
+//!   world based on that
 //!
-//! Every judge works from stored vertices and poses alone. Where two of them can answer one question they are held
-//! against each other first (`tests/suite/oracles.rs`).
+//! Every oracle works from stored vertices and poses alone. Where two of them can answer one question they are first
+//! compared with each other (`tests/suite/oracles.rs`).
 #![deny(missing_docs)]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a judge that cannot judge must stop the test")]
 
@@ -58,7 +58,7 @@ pub mod shapes;
 pub mod solid;
 pub mod solver;
 
-/// The guide's pages: what they show must run.
+/// The guide's pages: their examples must run.
 #[cfg(doctest)]
 mod guide {
     #[doc = include_str!("../../crates/asunder/guide/game-loops.md")]

@@ -1,14 +1,15 @@
-//! What a world must say, from all pairs of bodies and plain lists: no batches, no coherence, no order to keep up, and
-//! no narrow phase: who touches whom is the word of [`judged`](crate::judged).
+//! A naive model of a world, from all pairs of bodies and plain lists: no batches, no coherence, no order to maintain,
+//! and no narrow phase: which bodies touch is decided by [`judged`](crate::judged).
 //!
 //! ```text
-//! overlap      exactly the judge's
-//! contact      the judge's separation against the margins; within `BAND` of them either is right, and the world's word goes
-//! to come      what comes within the margins at any of some moments of the motions must be told; what is further
-//!              apart than they can bring it nearer must not                                        (ahead)
-//! impacts      each touches when it is said to, and what is passed through at any moment is told   (ahead)
-//! manifolds    their least separation is the judge's within their error                            (check)
-//!              or, in worlds where nothing is nudged, they are the narrow phase's in every bit     (bits)
+//! overlap      exactly the oracle's
+//! contact      the oracle's separation against the margins; within `BAND` of them either is right, and the world's
+//!              answer is taken
+//! to come      bodies within the margins at any of some moments of the motions must have a speculative contact;
+//!              bodies further apart than the motions can close must not                       (ahead)
+//! impacts      each touches at its reported time; what is passed at any moment is reported    (ahead)
+//! manifolds    their least separation is the oracle's within their error                      (check)
+//!              or, in worlds without tiny moves, they are the narrow phase's in every bit     (bits)
 //! ```
 
 mod ahead;
@@ -22,10 +23,10 @@ use asunder::{Collider, Event, World};
 use bits::Bits;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// In metres. What is told of a separation is right within 1e-6 of the bodies' size, which is three metres at most.
+/// In metres. Reported separations are within 1e-6 of the bodies' size, which is three metres at most.
 const BAND: f64 = 3e-6;
 
-/// Margins of two bodies are a metre at most; beyond that nobody needs to know.
+/// Margins of two bodies are a metre at most; separations beyond that are not needed.
 const NEARBY: Question = Question { within: 1.1, has_sides: true };
 
 /// A body in its slot.
@@ -34,7 +35,7 @@ struct Tenant<S: Judged> {
     key: S::Key,
     body: Collider<S>,
     stand: Stand<S>,
-    /// Another number whenever it stands elsewhere, or as something else.
+    /// Changes whenever the body gets another pose or shape.
     stood: u64,
     is_disabled: bool,
     is_asleep: bool,
@@ -48,36 +49,36 @@ type Slots = (u32, u32);
 #[derive(Clone, Debug)]
 pub struct NaiveWorld<S: Judged> {
     bodies: BTreeMap<u32, Tenant<S>>,
-    /// What the judge said of two bodies that stood so.
+    /// The oracle's answers for pairs, with the `stood` numbers that they hold for.
     words: BTreeMap<Slots, ([u64; 2], Word)>,
     /// Contacts of the last update, by the slots of their bodies.
     records: BTreeMap<Slots, Record<S>>,
     events: Vec<Event<S::Key>>,
     /// Pairs that may meet and whose boxes overlap, as of the last update.
     candidates: Vec<(S::Key, S::Key)>,
-    /// Bodies that got another shape since the last update.
+    /// Bodies whose shape changed since the last update.
     reshaped: BTreeSet<u32>,
-    /// How often anybody stood anywhere.
+    /// The number of poses and shapes so far.
     stands: u64,
     bits: Option<Bits<S>>,
     /// Whether the last update had too many pairs, and was given up.
     is_given_up: bool,
-    /// What was judged until now.
+    /// Counts of what was judged so far.
     pub tally: Tally,
 }
 
-/// How often what was judged.
+/// Counts of what was judged.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tally {
     /// Pairs that may meet.
     pub pairs: usize,
-    /// Those of which the world's word went, since either answer is right.
+    /// Pairs for which the world's answer was taken, since either is right.
     pub unsure: usize,
     /// Contacts with ground.
     pub on_ground: usize,
     /// Contacts that a motion may bring.
     pub to_come: usize,
-    /// What bullets ran into.
+    /// Impacts of bullets.
     pub impacts: usize,
     /// Events.
     pub events: usize,
@@ -94,14 +95,14 @@ struct Record<S: Judged> {
     speculative: bool,
     begun: bool,
     is_new: bool,
-    /// The judge's.
+    /// The oracle's answer.
     word: Word,
     on_ground: bool,
-    /// Whether the ground has a front only.
+    /// Whether the ground is one-sided.
     is_one_sided: bool,
-    /// How many manifolds a hook left.
+    /// How many manifolds a hook kept.
     most: usize,
-    /// Manifolds, where every bit is known.
+    /// The manifolds, where every bit is known.
     shown: Option<Vec<S::Manifold>>,
 }
 
@@ -123,13 +124,13 @@ impl<S: Judged> Default for NaiveWorld<S> {
 }
 
 impl<S: Judged> NaiveWorld<S> {
-    /// A model that knows every bit of the manifolds. Without motions, ground and moves by a hair: what is moved along
-    /// keeps its points then.
+    /// A model that knows every bit of the manifolds. Only without motions, ground and tiny moves, since manifolds that
+    /// are moved along keep their points.
     pub fn to_the_bit() -> Self {
         Self { bits: Some(Bits::default()), ..Self::default() }
     }
 
-    /// A body that the world gave this key.
+    /// Inserts a body under the key that the world gave it.
     pub fn insert(&mut self, key: S::Key, body: Collider<S>) {
         assert!(body.is_enabled() && !body.is_asleep(), "the model notes that itself");
         self.stands += 1;
@@ -145,15 +146,15 @@ impl<S: Judged> NaiveWorld<S> {
         assert!(self.bodies.insert(slot_of(key), tenant).is_none(), "a slot with two tenants");
     }
 
-    /// Whether the key's body was there.
+    /// Removes a body; returns whether it existed.
     pub fn remove(&mut self, key: S::Key) -> bool {
         self.is_fresh(key) && self.bodies.remove(&slot_of(key)).is_some()
     }
 
-    /// Whether the key's body is there.
+    /// Sets a pose; returns whether the body exists.
     pub fn set_pose(&mut self, key: S::Key, pose: S::Pose) -> bool {
         let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
-        // The same pose again is no move. No pose here has a zero with a sign of its own.
+        // Setting an equal pose is no move. No pose here contains -0.0.
         if S::pose_of(&tenant.body) != pose {
             self.stands += 1;
             tenant.body = S::moved(tenant.body.clone(), pose);
@@ -162,14 +163,14 @@ impl<S: Judged> NaiveWorld<S> {
         true
     }
 
-    /// Whether the key's body is there.
+    /// Sets a motion; returns whether the body exists.
     pub fn set_motion(&mut self, key: S::Key, motion: S::Motion) -> bool {
         let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
         (tenant.motion, tenant.is_asleep) = (Some(motion), false);
         true
     }
 
-    /// Whether the key's body is there, and so the change was made.
+    /// Makes a change; returns whether the body exists.
     pub fn change(&mut self, key: S::Key, change: &Change<S>) -> bool {
         let slot = slot_of(key);
         let Some(tenant) = tenant_of(&mut self.bodies, key) else { return false };
@@ -218,7 +219,7 @@ impl<S: Judged> NaiveWorld<S> {
         true
     }
 
-    /// Whether the key's body is there.
+    /// Whether the key's body exists.
     pub fn is_fresh(&self, key: S::Key) -> bool {
         self.bodies.get(&slot_of(key)).is_some_and(|tenant| tenant.key == key)
     }
@@ -228,13 +229,13 @@ impl<S: Judged> NaiveWorld<S> {
         self.bodies.clear();
     }
 
-    /// Contacts from all pairs, and events from the difference of two sets; of a world that has just been updated,
-    /// whose word goes where both answers are right.
+    /// Finds contacts from all pairs, and events as the difference of two sets. `world` has just been updated; its
+    /// answer is taken where both are right.
     pub fn update(&mut self, world: &World<S>) {
         self.update_with(world, |_, _| true, |_, _| usize::MAX);
     }
 
-    /// The same where so many pairs are allowed: of too many nothing comes, and what was stays.
+    /// The same with a limit on the number of pairs: beyond it there are no results, and the previous contacts stay.
     pub fn update_within(&mut self, world: &World<S>, most: usize) {
         let (mut sure, mut unsure) = (0, 0);
         let ahead = Ahead::of(&self.bodies);
@@ -258,7 +259,7 @@ impl<S: Judged> NaiveWorld<S> {
         self.bodies.values_mut().for_each(|tenant| tenant.motion = None);
     }
 
-    /// The same of the pairs that are admitted, of whose manifolds so many are kept.
+    /// The same for the pairs that `admit` accepts; `keep` limits the number of their manifolds.
     pub fn update_with(
         &mut self,
         world: &World<S>,
@@ -298,7 +299,7 @@ impl<S: Judged> NaiveWorld<S> {
                 manifolds.into_iter().take(most).collect()
             });
             let before = self.records.get(&slots).filter(|before| before.keys == record.keys);
-            // With a margin, a contact outlives the touch; not for what a motion may bring.
+            // With a margin, a contact outlives the touch; a speculative one does not.
             let had_begun = before.is_some_and(|before| before.begun) && !record.speculative;
             record.begun = had_begun || record.overlapping;
             record.is_new = record.overlapping && !had_begun;
@@ -355,7 +356,7 @@ fn tenant_of<S: Judged>(bodies: &mut BTreeMap<u32, Tenant<S>>, key: S::Key) -> O
     bodies.get_mut(&slot_of(key)).filter(|tenant| tenant.key == key)
 }
 
-/// The judge's word on two bodies where they are, who is asked where they stand otherwise than when he was last.
+/// The oracle's answer for two bodies at their poses, recomputed when either has changed.
 fn word_on<S: Judged>(
     words: &mut BTreeMap<Slots, ([u64; 2], Word)>,
     slots: Slots,
@@ -368,7 +369,7 @@ fn word_on<S: Judged>(
     word
 }
 
-/// The sum of two margins, as it is rounded.
+/// The sum of two margins, rounded as in the world.
 fn margin_of<S: Judged>([a, b]: [&Tenant<S>; 2]) -> f64 {
     f64::from(a.body.get_margin() + b.body.get_margin())
 }
@@ -383,10 +384,10 @@ fn met<S: Judged>(
     let margin = margin_of([a, b]);
     let told = S::contact(world, a.key, b.key).filter(|told| !told.speculative);
     let mut overlapping = word.overlapping;
-    // Without a margin all is exact.
+    // Without a margin everything is exact.
     let is_close = margin > 0.0 && (word.separation - margin).abs() <= BAND;
-    // A one-sided surface is seen by what is in front of it and over it. Beside a hollow edge it may be in front of the
-    // one piece and behind the other: a contact, or none, until they overlap.
+    // A one-sided surface collides with what is in front of it and over it. Beside a concave edge a body may be in
+    // front of one piece and behind the other: with a contact or without, until they overlap.
     let is_beside = word.separation <= margin && (a.stand.is_one_sided() || b.stand.is_one_sided());
     let is_near = if word.is_doubtful && word.separation <= margin + BAND || is_close && !overlapping {
         *unsure += 1;
@@ -417,7 +418,7 @@ fn record_of<S: Judged>([a, b]: [&Tenant<S>; 2], word: Word) -> Record<S> {
     }
 }
 
-/// Who meets whom: not two fixed bodies, not one owner's, and only where both sides' layers agree.
+/// Whether two bodies may meet: not two fixed ones, not two of one owner, and only if the layers of both agree.
 fn may_meet<S: Engine>(a: &Collider<S>, b: &Collider<S>) -> bool {
     let both_fixed = a.is_fixed() && b.is_fixed();
     let one_owner = a.get_owner().is_some() && a.get_owner() == b.get_owner();

@@ -4,11 +4,11 @@ use crate::cases::Random;
 use crate::exact_plane::{ExactPlane, Meeting};
 use glam::{DVec2, Vec2};
 
-/// After so many passes over all pairs of edges, points that are still tangled are mostly on one line.
+/// After this many passes over all pairs of edges, points that are still tangled are mostly collinear.
 const PASSES: usize = 12;
 
-/// The points in an order whose edges mostly do not cross, each place once: an edge pair that meets is exchanged
-/// for the other pair on the same ends, for as long as there is one, up to a limit. They must be finite.
+/// The points in an order whose edges mostly do not cross, each place once: two edges that meet are exchanged for the
+/// other pair with the same ends, until none are left, or up to a limit. The points must be finite.
 pub fn untangled(points: Vec<Vec2>) -> Vec<Vec2> {
     let mut outline: Vec<Vec2> = Vec::new();
     for point in points {
@@ -38,8 +38,8 @@ pub fn untangled(points: Vec<Vec2>) -> Vec<Vec2> {
     order.into_iter().map(|i| outline[i]).collect()
 }
 
-/// Points of one of the kinds that break geometry: on a small lattice, at random, on a circle, a rounding apart, in a
-/// strip 1e-7 wide, or of any size down to subnormal.
+/// Points of one of the kinds that break geometry code: on a small lattice, random, on a circle, one rounding apart, in
+/// a strip 1e-7 wide, or of any size down to subnormal.
 pub fn nasty_points(random: &mut Random, count: usize) -> Vec<Vec2> {
     let kind = random.below(7);
     let size = random.pick(&[1.0, 1e-5, 1e3, 4e5]);
@@ -47,7 +47,7 @@ pub fn nasty_points(random: &mut Random, count: usize) -> Vec<Vec2> {
         .map(|_| match kind {
             0 => DVec2::new(random.below(6) as f64, random.below(6) as f64) * size,
             1 => DVec2::new(random.signed(), random.signed()) * size,
-            // Pythagorean directions: cocircular exactly.
+            // Pythagorean directions: exactly cocircular.
             2 => {
                 let (x, y) = random.pick(&[(3.0, 4.0), (4.0, 3.0), (5.0, 0.0), (0.0, 5.0)]);
                 DVec2::new(random.pick(&[x, -x]), random.pick(&[y, -y]))
@@ -61,7 +61,7 @@ pub fn nasty_points(random: &mut Random, count: usize) -> Vec<Vec2> {
         .collect()
 }
 
-/// A comb: a bar with so many teeth that stand on it.
+/// A comb: a bar with this many teeth standing on it.
 pub fn comb(teeth: usize) -> Vec<Vec2> {
     let foot = |i: usize| 2.0 * i as f32;
     let mut outline = vec![Vec2::new(foot(teeth) - 1.0, -1.0)];
@@ -77,7 +77,7 @@ pub fn comb(teeth: usize) -> Vec<Vec2> {
     outline
 }
 
-/// A star: so many tips at a distance of 1, and as many dents between them at a random part of it.
+/// A star: tips at a distance of 1, and between them dents at random fractions of it.
 pub fn star(random: &mut Random, tips: usize) -> Vec<Vec2> {
     let turn = core::f64::consts::PI / tips as f64;
     let (sin, cos) = sin_cos(turn);

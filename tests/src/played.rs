@@ -1,5 +1,4 @@
-//! What lists of operations do to either world, beside [`Engine`]'s calls: many at once, by a hair, on a grid, and
-//! ground.
+//! Operations on either world besides [`Engine`]'s calls: many bodies at once, tiny moves, a grid, and ground.
 
 use crate::cases::Random;
 use crate::engine::Engine;
@@ -9,17 +8,17 @@ use asunder::{
 };
 use glam::{DQuat, DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// A dimension's world, by more calls that both have.
+/// A dimension's world, by further calls that both dimensions have.
 pub trait Played: Engine {
     /// `World::insert_many`.
     fn insert_many(world: &mut World<Self>, bodies: Vec<Collider<Self>>) -> Vec<Self::Key>;
-    /// `World::set_poses`: whether all keys were fresh.
+    /// `World::set_poses`; returns whether all keys were fresh.
     fn set_poses(world: &mut World<Self>, poses: Vec<(Self::Key, Self::Pose)>) -> bool;
-    /// A pose by so much aside and turned by so much, in metres and radians, or less.
+    /// A pose moved and rotated by at most `by`, in metres and radians.
     fn nudged(pose: &Self::Pose, random: &mut Random, by: f64) -> Self::Pose;
-    /// A pose that is not turned, on a grid of half metres within `reach` of the origin on each axis.
+    /// An unrotated pose on a grid of half metres within `reach` of the origin on each axis.
     fn on_grid(random: &mut Random, reach: f64) -> Self::Pose;
-    /// Ground of about `reach` each way: of triangles, or of segments; solid from one side or from both.
+    /// Ground of about `reach` each way: of triangles or segments; one-sided or two-sided.
     fn random_ground(random: &mut Random, reach: f64) -> Collider<Self>;
 }
 
@@ -53,7 +52,7 @@ impl Played for Volume {
     fn random_ground(random: &mut Random, reach: f64) -> Collider3 {
         const SIDE: usize = 4;
         let (cell, middle) = ((reach / 2.0) as f32, -0.5 * (SIDE - 1) as f32);
-        // Level, in steps, or rough.
+        // Flat, stepped, or rough.
         let kind = random.below(3);
         let mut height = || match kind {
             0 => 0.0,

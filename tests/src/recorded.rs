@@ -1,4 +1,4 @@
-//! The named worlds of `asunder-scenes`, played into a world frame by frame; and what a frame says, in one number.
+//! The named worlds of `asunder-scenes`, played into a world frame by frame; and what a frame reports, as hashes.
 
 use crate::engine::Engine;
 use asunder::slotmap::Key;
@@ -31,27 +31,27 @@ impl<S: Recording, R: Replay<S>> Recorded<S, R> {
         Self { world, keys, replay }
     }
 
-    /// Poses whatever moves as at this frame. Allocates nothing itself.
+    /// Sets the poses of all moving bodies for this frame. Allocates nothing itself.
     pub fn pose(&mut self, frame: u32) {
         let Self { world, keys, replay } = self;
         replay.advance(frame, |body, pose| assert!(S::set_pose(world, keys[body], pose)));
     }
 
-    /// The same, and an update.
+    /// The same, followed by an update.
     pub fn play(&mut self, frame: u32) {
         self.pose(frame);
         self.world.update();
     }
 
-    /// Takes what the last frame said into both hashes, events into the first and contacts into the second.
-    /// Allocates nothing.
+    /// Adds what the last frame reported to both hashes, events to the first and contacts to the second. Allocates
+    /// nothing.
     pub fn hash(&self, events: &mut Fnv1a, contacts: &mut Fnv1a) {
         hash(&self.world, events, contacts);
     }
 }
 
-/// Takes what a world's last frame said into both hashes, events into the first and contacts into the second.
-/// Allocates nothing.
+/// Adds what a world's last frame reported to both hashes, events to the first and contacts to the second. Allocates
+/// nothing.
 pub fn hash<S: Recording>(world: &World<S>, events: &mut Fnv1a, contacts: &mut Fnv1a) {
     for event in S::events(world) {
         let (Event::Began { a, b, .. } | Event::Ended { a, b, .. }) = *event;
@@ -66,7 +66,7 @@ fn bits(key: impl Key) -> u64 {
     key.data().as_ffi()
 }
 
-/// The hash of Fowler, Noll and Vo, variant 1a, of 64 bits: plain enough to be written out, so that it never changes.
+/// The 64-bit hash of Fowler, Noll and Vo, variant 1a: simple enough to be written out here, so that it never changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv1a(pub u64);
 
@@ -77,22 +77,22 @@ impl Default for Fnv1a {
 }
 
 impl Fnv1a {
-    /// Takes in words, least byte first.
+    /// Adds words, least significant byte first.
     pub fn add<const N: usize>(&mut self, words: [u64; N]) {
         for byte in words.into_iter().flat_map(u64::to_le_bytes) {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
 
-    /// Takes in numbers, bit for bit.
+    /// Adds numbers, bit for bit.
     pub fn add_floats<const N: usize>(&mut self, numbers: [f32; N]) {
         self.add(numbers.map(|number| u64::from(number.to_bits())));
     }
 }
 
-/// Where bodies are at a frame.
+/// The poses of bodies at a frame.
 pub trait Replay<S: Space>: Send {
-    /// Hands over the pose of every body that moves, by its number.
+    /// Passes on the pose of every moving body, by its number.
     fn advance(&mut self, frame: u32, set: impl FnMut(usize, S::Pose));
 }
 
@@ -102,7 +102,7 @@ pub trait Recording: Engine {
     type Replay: Replay<Self>;
     /// The motion, and the bodies at its start.
     fn open(scene: WorldScene, count: usize) -> (Self::Replay, Vec<Collider<Self>>);
-    /// Takes in candidates and contacts: every key, flag, number and name.
+    /// Adds candidates and contacts: every key, flag, number and feature id.
     fn hash_contacts(world: &World<Self>, into: &mut Fnv1a);
 }
 

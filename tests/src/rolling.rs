@@ -1,9 +1,9 @@
 //! Bodies that roll, fall, hop and creep over ground: over a mesh and a height field in space, over a chain in the
 //! plane.
 //!
-//! No solver ran: where a body is depends on the frame's number alone. It follows the ground under its middle a few
-//! millimetres deep, so that what is broad or long reaches in deeper, and what rolls on meets its neighbours.
-//! Angles become rotations by the library's own trigonometry, and quaternions are made in f64, one number after the
+//! There is no solver: a body's pose depends on the frame's number alone. It follows the ground under its centre a few
+//! millimetres deep, so that broad or long bodies reach in deeper, and rolling ones run into their neighbours. Angles
+//! become rotations by the library's own trigonometry, and quaternions are computed in f64 one component after the
 //! other: the script has equal bits on every machine.
 
 use crate::cases::Random;
@@ -15,26 +15,26 @@ use asunder::{
 use asunder_scenes::terrain::Terrain;
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// Seconds a frame.
+/// Seconds per frame.
 const STEP: f64 = 1.0 / 60.0;
 
-/// How a body gets along.
+/// How a body moves.
 #[derive(Clone, Copy)]
 enum Gait {
-    /// On and on, turning as it goes.
+    /// Continuously, turning as it goes.
     Rolls,
-    /// From above, and then it lies.
+    /// From above, and then it lies still.
     Falls,
-    /// In bows, turning as it goes.
+    /// In arcs, turning as it goes.
     Hops,
-    /// A tenth of a millimetre a frame, flat on the ground.
+    /// A tenth of a millimetre per frame, flat on the ground.
     Creeps,
 }
 
 const GAITS: [Gait; 4] = [Gait::Rolls, Gait::Falls, Gait::Hops, Gait::Creeps];
 
 impl Gait {
-    /// Metres a second along the ground.
+    /// Metres per second along the ground.
     fn speed(self) -> f64 {
         match self {
             Self::Rolls => 2.5,
@@ -48,7 +48,7 @@ impl Gait {
         matches!(self, Self::Rolls | Self::Hops)
     }
 
-    /// How high above its place on the ground, in metres; the phase is from 0 to 1.
+    /// Height above its place on the ground, in metres; the phase is from 0 to 1.
     fn lift(self, time: f64, phase: f64) -> f64 {
         match self {
             Self::Rolls | Self::Creeps => 0.0,
@@ -62,35 +62,35 @@ impl Gait {
     }
 }
 
-/// A body's way; `P` is a place on the ground.
+/// A body's path; `P` is a place on the ground.
 struct Way<P> {
     gait: Gait,
     start: P,
-    /// Metres a second.
+    /// Metres per second.
     velocity: P,
     phase: f64,
-    /// How high its position is when it lies on the ground, less a few millimetres.
+    /// Height of its position when it lies on the ground, less a few millimetres.
     height: f64,
 }
 
-/// Hills in two halves: a mesh on the left, and on the right a height field with holes, solid from above alone.
+/// Hills in two halves: a mesh on the left, and on the right a one-sided height field with holes.
 pub struct Hills {
     halves: [Terrain; 2],
-    /// Of the bodies after both halves, by turns on the one and on the other.
+    /// Those of the bodies after both halves, alternating between the two.
     ways: Vec<Way<DVec2>>,
 }
 
 /// The number of grounds that [`Hills::open`] puts before all other bodies.
 pub const GROUNDS: usize = 2;
 
-/// Metres a cell of the hills is wide.
+/// Width of a cell of the hills, in metres.
 const CELL: f64 = 0.5;
 
 impl Hills {
-    /// So many bodies with both halves of the ground, which are the first two. Seed 1.
+    /// `count` bodies including both halves of the ground, which are the first two. Seed 1.
     pub fn open(count: usize) -> (Self, Vec<Collider3>) {
         let count = count - GROUNDS;
-        // Somewhat more than a square metre a body.
+        // Slightly more than a square metre per body.
         let halves = [20, 21].map(|seed| Terrain::new(5 * count, CELL, seed));
         let (mut random, side) = (Random::new(1), halves[0].side());
         let kinds = kinds3();
@@ -157,7 +157,7 @@ fn body3(shape: &Shape3, number: usize) -> Collider3 {
     Collider3::new(shape.clone()).user_data(number as u64).margin(0.5 * MARGIN).unwrap()
 }
 
-/// Shapes, and how high their positions are when they lie flat.
+/// Shapes, and the height of their positions when they lie flat.
 fn kinds3() -> Vec<(Shape3, f64)> {
     let cuboid = |half| Cuboid::from_half_extents(half).unwrap();
     let corners: Vec<Vec3> = (0..8)
@@ -181,19 +181,19 @@ fn kinds3() -> Vec<(Shape3, f64)> {
     ]
 }
 
-/// About a unit axis by an angle in radians.
+/// The rotation about a unit axis by an angle in radians.
 fn about(axis: DVec3, angle: f64) -> Quat {
     let half = Rotation2::from_angle((0.5 * angle) as f32).unwrap();
     let axis = axis.as_vec3();
     Quat::from_xyzw(axis.x * half.sin(), axis.y * half.sin(), axis.z * half.sin(), half.cos())
 }
 
-/// The shortest way from upright to a unit normal that points up. Poses normalise it.
+/// The shortest rotation from upright to a unit normal that points up. Poses normalise it.
 fn upright(normal: DVec3) -> Quat {
     Quat::from_xyzw(normal.z as f32, 0.0, -normal.x as f32, (1.0 + normal.y) as f32)
 }
 
-/// A way up and down, with level stretches that are cut into pieces, as one chain.
+/// A hilly path, with level stretches that are cut into pieces, as one chain.
 pub struct Track {
     vertices: Vec<Vec2>,
     ways: Vec<Way<f64>>,
@@ -203,7 +203,7 @@ pub struct Track {
 const PIECE: f64 = 0.25;
 
 impl Track {
-    /// So many bodies with the chain, which is the first. Seed 1.
+    /// `count` bodies including the chain, which is the first. Seed 1.
     pub fn open(count: usize) -> (Self, Vec<Collider2>) {
         let count = count - 1;
         let length = 5.0 + 0.7 * count as f64;
@@ -257,7 +257,7 @@ impl Replay<Plane> for Track {
     }
 }
 
-/// Waves of 31 and 7 m; what would be lower than half a metre below zero is level.
+/// Waves of 31 and 7 m, clamped from below at half a metre under zero.
 fn vertex(number: usize) -> Vec2 {
     let x = number as f64 * PIECE;
     let wave =
@@ -265,7 +265,7 @@ fn vertex(number: usize) -> Vec2 {
     Vec2::new(x as f32, (wave(31.0) + 0.2 * wave(7.0)).max(-0.5))
 }
 
-/// Shapes, and how high their positions are when they lie flat.
+/// Shapes, and the height of their positions when they lie flat.
 fn kinds2() -> Vec<(Shape2, f64)> {
     let rect = |x, y| Rect::from_half_extents(Vec2::new(x, y)).unwrap();
     let corners = [(-0.3, -0.2), (0.3, -0.2), (0.4, 0.1), (0.0, 0.35), (-0.4, 0.1)].map(Vec2::from);

@@ -1,5 +1,5 @@
-//! Seeded shapes of every kind, and pairs of them in every kind of place: one table a dimension, so that none is
-//! forgotten.
+//! Seeded shapes of every kind, and pairs of them in every kind of relative pose: one table per dimension, so that none
+//! is forgotten.
 
 use crate::bodies::{Bodies2, Bodies3};
 use crate::cases::{Case2, Case3, Random};
@@ -9,7 +9,7 @@ use asunder_geometry::{
 };
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// A source of coordinates for one shape: anywhere, thin on one axis, or short binary fractions.
+/// A source of coordinates for one shape: arbitrary, thin along one axis, or short binary fractions.
 #[derive(Debug)]
 pub struct Clay<'a> {
     random: &'a mut Random,
@@ -18,7 +18,7 @@ pub struct Clay<'a> {
     is_short: bool,
 }
 
-/// A kind of shape: its name, and how to make one.
+/// A kind of shape: its name, and a function that makes one.
 pub type Kind<S> = (&'static str, fn(&mut Clay) -> S);
 
 /// Every kind of shape in space; a new one is a new row.
@@ -64,7 +64,7 @@ pub const KINDS3: [Kind<Shape3>; 12] = [
         let count = 1 + clay.random.below(3);
         let parts: Vec<_> = (0..count)
             .map(|_| {
-                // The rows before this one, but for the compound itself.
+                // The rows before this one, except the compound itself.
                 let shape = KINDS3[clay.random.below(10)].1(clay);
                 let at = clay.point().as_dvec3();
                 (Pose3::new(at, clay.quaternion()).unwrap(), shape)
@@ -117,7 +117,7 @@ pub const KINDS2: [Kind<Shape2>; 9] = [
     ("half-plane", |clay| HalfPlane::new(clay.normal().truncate()).unwrap().into()),
 ];
 
-/// Chains: wild ones, closed ones, and a line cut into pieces of which some are a thousandth of the others.
+/// Chains: random ones, closed ones, and a line cut into pieces of which some are a thousandth of the others.
 pub const CHAINS: [Kind<Shape2>; 3] = [
     ("chain", |clay| {
         loop {
@@ -210,7 +210,7 @@ impl<'a> Clay<'a> {
         }
     }
 
-    /// A polygon, segment or point that is a hull.
+    /// A hull that is a polygon, segment or point.
     fn flat_hull(&mut self) -> Hull {
         loop {
             let count = 1 + self.random.below(5);
@@ -239,7 +239,7 @@ impl<'a> Clay<'a> {
         (self.random.direction2() * 3.0).as_vec2().extend(self.random.signed() as f32)
     }
 
-    /// A quarter turn or none where coordinates are short, so that they stay so.
+    /// A quarter turn or none where coordinates are short, to keep them short.
     fn quaternion(&mut self) -> Quat {
         if self.is_short {
             let (x, y) = (Quat::from_xyzw(1.0, 0.0, 0.0, 1.0), Quat::from_xyzw(0.0, 1.0, 0.0, -1.0));
@@ -257,13 +257,13 @@ impl<'a> Clay<'a> {
     }
 }
 
-/// The kinds of places that [`pair3`] and [`pair2`] go through.
+/// The number of kinds of relative poses that [`pair3`] and [`pair2`] go through.
 pub const PLACES: usize = 19;
 
 /// Gaps, as shares of the size, that pairs are moved to.
 const GAPS: [f64; 8] = [1e-2, 1e-5, 1e-8, 1e-12, -1e-12, -1e-8, -1e-5, -1e-2];
 
-/// How a pair stands: sizes of both, how far from the origin, and what else is special.
+/// The setup of a pair: sizes of both, distance from the origin, and special properties.
 struct Place {
     sizes: [f64; 2],
     origin: DVec3,
@@ -305,7 +305,7 @@ impl Place {
     }
 }
 
-/// Two shapes in space, in the `round`-th kind of place.
+/// Two shapes in space, in the `round`-th kind of relative pose.
 pub fn pair3(random: &mut Random, a: &Kind<Shape3>, b: &Kind<Shape3>, round: usize) -> Bodies3 {
     let place = Place::new(round, random);
     let mut make = |kind: &Kind<Shape3>, size: f64| {
@@ -323,7 +323,7 @@ pub fn pair3(random: &mut Random, a: &Kind<Shape3>, b: &Kind<Shape3>, round: usi
     let finite = |radius: f32| if radius.is_finite() { f64::from(radius) } else { 0.0 };
     let reach = finite(shape_a.outer_radius()) + finite(shape_b.outer_radius());
     let mut at = place.origin;
-    // From one centre to the other; along a side now and then.
+    // From one centre to the other; sometimes along a side.
     let local = if place.same_rotation { random.pick(&DVec3::AXES) } else { random.direction() };
     let direction = Pose3::new(DVec3::ZERO, turn_a).unwrap().transform(local);
     let mut away = direction * (reach * place.away);
@@ -345,7 +345,7 @@ pub fn pair3(random: &mut Random, a: &Kind<Shape3>, b: &Kind<Shape3>, round: usi
     bodies
 }
 
-/// Two shapes in the plane, in the `round`-th kind of place.
+/// Two shapes in the plane, in the `round`-th kind of relative pose.
 pub fn pair2(random: &mut Random, a: &Kind<Shape2>, b: &Kind<Shape2>, round: usize) -> Bodies2 {
     let place = Place::new(round, random);
     let mut make = |kind: &Kind<Shape2>, size: f64| {

@@ -1,8 +1,8 @@
-//! Facets and edges of a convex hull from nothing but its vertices.
+//! Facets and edges of a convex hull from its vertices alone.
 //!
-//! The plane through three vertices bears a facet exactly when no vertex lies on both sides of it; two facets that
-//! share two vertices share an edge. All triples are tried and every side is decided exactly, so nothing here
-//! depends on a tolerance, nor on the library's hull builder.
+//! The plane through three vertices contains a facet exactly when there are not vertices on both sides of it; two
+//! facets that share two vertices share an edge. All triples are tried and every side is decided exactly, so nothing
+//! here depends on a tolerance, nor on the library's hull builder.
 
 use crate::integers::common_integers;
 use asunder_geometry::Shape3;
@@ -16,9 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Solid {
     /// The vertices, as stored by the shape.
     pub vertices: Vec<Vec3>,
-    /// Every facet, by all the vertices in its plane.
+    /// Every facet, as all the vertices in its plane.
     pub facets: Vec<Facet>,
-    /// Every edge, by its two ends.
+    /// Every edge, as its two ends.
     pub edges: Vec<[usize; 2]>,
 }
 
@@ -60,7 +60,8 @@ impl Solid {
     }
 }
 
-/// The vertices in the plane of a triple and the sign that turns its normal outwards; `None` if it supports nothing.
+/// The vertices in the plane of a triple and the sign that makes its normal point outwards; `None` if it supports
+/// nothing.
 fn supported(vertices: &[Vec3], triple: [usize; 3]) -> Option<(Vec<usize>, f64)> {
     let (mut above, mut below) = (false, false);
     let mut corners = Vec::new();
@@ -74,7 +75,7 @@ fn supported(vertices: &[Vec3], triple: [usize; 3]) -> Option<(Vec<usize>, f64)>
             return None;
         }
     }
-    // A triple on one line has every vertex "in its plane": it supports no facet.
+    // A collinear triple has every vertex "in its plane": it supports no facet.
     (above || below).then_some((corners, if above { -1.0 } else { 1.0 }))
 }
 
@@ -112,7 +113,7 @@ fn edges_between(vertices: &[Vec3], facets: &[Facet]) -> Vec<[usize; 2]> {
         for other in &facets[..index] {
             let shared: Vec<usize> =
                 facet.corners.iter().copied().filter(|corner| other.corners.contains(corner)).collect();
-            // More than two shared vertices lie on one line: the edge is the two furthest apart.
+            // More than two shared vertices are collinear: the edge is the two furthest apart.
             let length = |[p, q]: [usize; 2]| (vertices[p].as_dvec3() - vertices[q].as_dvec3()).length();
             let pairs = shared.iter().flat_map(|&p| shared.iter().map(move |&q| [p, q]));
             let longest = pairs.filter(|[p, q]| p < q).max_by(|&a, &b| length(a).total_cmp(&length(b)));

@@ -1,55 +1,57 @@
 //! A small rigid-body solver, to find out whether bodies can stand on our manifolds.
 //!
-//! Sequential impulses with warm starting (Catto, "Iterative dynamics with temporal coherence", 2005), substeps,
-//! and soft contacts with a relaxing pass (Catto, "Solver2D", 2024): what games use, and no more than that.
+//! Sequential impulses with warm starting (Catto, "Iterative dynamics with temporal coherence", 2005), substeps, and
+//! soft contacts with a relaxing pass (Catto, "Solver2D", 2024): what games use, and no more than that.
 //!
 //! ```text
-//! once a step     update the world; one constraint a contact point, its impulse from last step by the point's name
-//! each substep    gravity; the impulses so far; solve, leaning against overlap as a damped spring of so many hertz does;
-//!                 move; solve again without that lean, so that no body keeps the speed that it was pushed out with
+//! once a step     update the world; one constraint per contact point, warm-started from last step by its feature id
+//! each substep    gravity; warm start; solve with soft contacts that push out of overlap as a damped spring does;
+//!                 integrate positions; solve again without the push (relax), so that no body keeps the speed that it
+//!                 was pushed out with
 //! ```
-//! A point that is still apart by s may close by s in a substep, and no more (a speculative contact). Nothing
-//! sleeps, and nothing is damped but what a contact damps.
+//! A point that is still apart by s may close by s in a substep, and no more (a speculative contact). Nothing sleeps,
+//! and nothing is damped except by contacts.
 
 use asunder::{BodyKey3, Collider3, FeatureId, Pose3, Shape3, World3};
 use glam::{DMat3, DQuat, DVec2, DVec3};
 use std::collections::BTreeMap;
 
-/// Seconds a step.
+/// Seconds per step.
 pub const STEP: f64 = 1.0 / 60.0;
 
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 
-/// Critically damped ten times over, as Catto has it: contacts shall not bounce.
+/// Ten times critical damping, as Catto has it: contacts must not bounce.
 const DAMPING_RATIO: f64 = 10.0;
 
-/// Hertz of the spring, at most; nor more than a quarter of the substeps, beyond which Catto found it to shake.
+/// The spring's frequency in hertz, at most; and at most a quarter of the substep rate, beyond which Catto found it to
+/// shake.
 const STIFFNESS: f64 = 60.0;
 
-/// Metres a second at which bodies are pushed out of each other at most.
+/// The greatest speed at which bodies are pushed out of each other, in metres per second.
 const PUSH: f64 = 3.0;
 
-/// What a solver may be told.
+/// The solver's settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Substeps a step: 4 to 8 in games.
+    /// Substeps per step: 4 to 8 in games.
     pub substeps: usize,
-    /// Coulomb's coefficient, of all bodies.
+    /// Coulomb's coefficient, the same for all bodies.
     pub friction: f64,
     /// Each body's share of the distance at which contacts appear, in metres.
     pub margin: f32,
-    /// What becomes of the names of contact points.
+    /// What happens to the feature ids of contact points.
     pub names: Names,
 }
 
-/// What becomes of the names of contact points on their way to the solver.
+/// What happens to the feature ids of contact points on their way to the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// They are used as they are.
     Kept,
-    /// They are others in every step, so that no impulse is ever found again.
+    /// They differ in every step, so that no impulse is ever found again.
     Lost,
-    /// Within a manifold they move on by one place in every step, so that impulses come from a neighbour.
+    /// Within a manifold they are shifted by one place in every step, so that impulses come from a neighbour.
     Swapped,
 }
 
@@ -59,26 +61,26 @@ impl Default for Settings {
     }
 }
 
-/// A body: where its mass is and how it moves.
+/// A body: its mass properties and motion.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// Centre of mass, in metres.
     pub center: DVec3,
     /// Rotation.
     pub rotation: DQuat,
-    /// Metres a second.
+    /// Metres per second.
     pub velocity: DVec3,
-    /// Radians a second.
+    /// Radians per second.
     pub spin: DVec3,
     key: BodyKey3,
     local_center: DVec3,
     inverse_mass: f64,
     inverse_inertia: DMat3,
-    /// Where it was when contacts were found.
+    /// Its pose when contacts were found.
     start: (DVec3, DQuat),
 }
 
-/// The name of a point in the world: both bodies, both parts, both features.
+/// A contact point's key in the world: both bodies, both parts, both features.
 type Name = (usize, usize, u32, u32, u64);
 
 /// One contact point.
@@ -88,28 +90,28 @@ struct Point {
     tangents: [DVec3; 2],
     /// From each centre of mass.
     arms: [DVec3; 2],
-    /// The separation, less what the arms say of it.
+    /// The separation, less the part of it that follows from the arms.
     offset: f64,
-    /// Along the normal.
+    /// Accumulated impulse along the normal.
     push: f64,
-    /// Along both tangents.
+    /// Accumulated impulse along both tangents.
     rub: DVec2,
-    /// The inverses of what an impulse of one does, along the normal and both tangents.
+    /// Effective masses along the normal and both tangents.
     masses: [f64; 3],
 }
 
-/// What the points of a step were.
+/// Statistics of the contact points of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Seen {
-    /// How many.
+    /// Their number.
     pub points: usize,
-    /// How many of them have a name of the step before.
+    /// How many of them have a key of the previous step.
     pub kept: usize,
 }
 
 /// Bodies under gravity.
 pub struct Solver {
-    /// What they touch, as of the last step.
+    /// The collision world, as of the last step.
     pub world: World3,
     /// In the order in which they were added.
     pub bodies: Vec<Body>,
@@ -119,12 +121,12 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// An empty place.
+    /// An empty scene.
     pub fn new(settings: Settings) -> Self {
         Self { world: World3::new(), bodies: Vec::new(), settings, impulses: BTreeMap::new(), steps: 0 }
     }
 
-    /// Adds a body of water's density; a fixed one does not move.
+    /// Adds a body with the density of water; a fixed one does not move.
     pub fn add(&mut self, shape: impl Into<Shape3>, pose: Pose3, fixed: bool) {
         let shape = shape.into();
         let collider = Collider3::new(shape.clone()).at(pose).user_data(self.bodies.len() as u64);
@@ -145,7 +147,7 @@ impl Solver {
         });
     }
 
-    /// Takes all bodies through one step of [`STEP`] seconds.
+    /// Advances all bodies by one step of [`STEP`] seconds.
     pub fn step(&mut self) -> Seen {
         self.world.update();
         self.steps += 1;
@@ -175,7 +177,7 @@ impl Solver {
         Seen { points: points.len(), kept }
     }
 
-    /// All contact points, each with what its name remembers.
+    /// All contact points, each warm-started by its key.
     fn points(&self) -> Vec<Point> {
         let mut points = Vec::new();
         for contact in self.world.contacts() {
@@ -255,14 +257,14 @@ impl Solver {
         push(&mut self.bodies, point, point.normal * change);
     }
 
-    /// How fast B's point moves from A's.
+    /// The velocity of B's point relative to A's.
     fn speed(&self, point: &Point) -> DVec3 {
         let speed = |body: &Body, arm: DVec3| body.velocity + body.spin.cross(arm);
         speed(&self.bodies[point.name.1], point.arms[1]) - speed(&self.bodies[point.name.0], point.arms[0])
     }
 }
 
-/// An impulse on B, and its opposite on A.
+/// Applies an impulse to B, and its opposite to A.
 fn push(bodies: &mut [Body], point: &Point, impulse: DVec3) {
     for (index, arm, impulse) in
         [(point.name.0, point.arms[0], -impulse), (point.name.1, point.arms[1], impulse)]
@@ -274,7 +276,7 @@ fn push(bodies: &mut [Body], point: &Point, impulse: DVec3) {
 }
 
 impl Body {
-    /// Where it is, as the world takes it.
+    /// The body's pose in the world.
     pub fn pose(&self) -> Pose3 {
         Pose3::new(self.center - self.rotation * self.local_center, self.rotation.as_quat()).unwrap()
     }
@@ -289,12 +291,12 @@ impl Body {
         self.rotation * (self.inverse_inertia * (self.rotation.inverse() * v))
     }
 
-    /// The speed along an axis that an impulse of one along it brings, at the end of an arm.
+    /// The speed along an axis that a unit impulse along it causes at the end of an arm.
     fn yields(&self, arm: DVec3, axis: DVec3) -> f64 {
         self.inverse_mass + axis.dot(self.turned_inverse(arm.cross(axis)).cross(arm))
     }
 
-    /// How far it has moved since contacts were found, and where an arm of then is now, in one sum.
+    /// How far a point has moved since contacts were found: the body's translation plus the arm's present vector.
     fn moved(&self, arm: DVec3) -> DVec3 {
         self.center - self.start.0 + self.rotation * (self.start.1.inverse() * arm)
     }

@@ -1,7 +1,7 @@
-//! Every answer goes with `overlaps`, which is exact: separations, distances, contact points, records, events.
+//! Every answer agrees with `overlaps`, which is exact: separations, distances, contact points, records, events.
 //!
-//! Most of it is held to account where numbers are of no use: on pairs for which the first tier's sign is wrong, and on
-//! bodies that pass through touching one unit in the last place at a time.
+//! Most checks run where numbers are of no use: on pairs for which the first tier's sign is wrong, and on bodies that
+//! pass through touching one ulp at a time.
 
 mod sides;
 mod walks;
@@ -9,10 +9,10 @@ mod walks;
 use asunder::{Collider, Event, Plane, Volume, World};
 use sides::{Side, pair};
 
-/// Bodies of every hard family, some of every level.
+/// Number of pairs of each hard family, spread over all levels.
 const EACH: usize = 96;
 
-/// Pairs on which the first tier alone is wrong, or says too little: `guess` differs, or the number reported is zero.
+/// Pairs for which the first tier alone is wrong or undecided: `guess` differs, or the reported number is zero.
 fn hardest<S: Side>() -> (Vec<[Collider<S>; 2]>, usize) {
     let (mut found, mut misled) = (Vec::new(), 0);
     for bodies in S::hard_pairs(EACH, 90) {
@@ -27,7 +27,7 @@ fn hardest<S: Side>() -> (Vec<[Collider<S>; 2]>, usize) {
     (found, misled)
 }
 
-/// All the rules for a pair by itself. Returns whether it overlaps.
+/// Checks a pair by itself. Returns whether it overlaps.
 fn check_pair<S: Side>(bodies: &[Collider<S>; 2]) -> bool {
     let (facts, exact) = (S::facts(bodies), S::exactly_overlap(bodies));
     assert_eq!(facts.overlaps, exact, "exact arithmetic disagrees: {bodies:?}");
@@ -61,7 +61,7 @@ fn every_answer_in_the_plane_goes_with_overlaps() {
     every_answer_goes_with_overlaps::<Plane>();
 }
 
-/// A world without margins over the hardest pairs: out of reach, in place, and out of reach again.
+/// A world without margins on the hardest pairs: apart, in place, and apart again.
 fn a_world_says_what_is_exact<S: Side>(least: usize) {
     let (cases, misled) = hardest::<S>();
     eprintln!("{misled} pairs with a wrong guess, {} with a sign that no number shows", cases.len());
@@ -85,7 +85,7 @@ fn a_world_says_what_is_exact<S: Side>(least: usize) {
     assert!(overlapping >= 12 && cases.len() - overlapping >= 12, "{overlapping} of {} overlap", cases.len());
 }
 
-/// A world of two bodies without margins, before and after an update.
+/// Checks a world of two bodies without margins after an update.
 fn check_frame<S: Side>(world: &World<S>, keys: [S::Key; 2], [was, is]: [bool; 2], place: &str) {
     let [a, b] = keys;
     assert_eq!(S::is_touching(world, a, b), is, "{place}");
@@ -119,8 +119,7 @@ fn a_flat_world_says_what_is_exact() {
     a_world_says_what_is_exact::<Plane>(24);
 }
 
-/// The number that decides a yes or no is f64, and no number is that fine: a sign that is wrong must be found
-/// somewhere.
+/// Overlap is decided from an f64, which cannot be fine enough for every pair: some tier must detect a wrong sign.
 #[test]
 fn a_wrong_guess_is_never_the_answer() {
     let mut tiers = [0; 3];

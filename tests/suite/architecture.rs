@@ -1,12 +1,12 @@
-//! Invariants of absence: who may know whom, read from `cargo metadata` and of the examples' stepper; and what
-//! ARCHITECTURE.md says of paths and sizes.
+//! What must not exist: dependencies between the wrong packages, read from `cargo metadata`, and of the examples'
+//! stepper; and that paths and sizes in ARCHITECTURE.md are right.
 
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What a user of asunder builds; tests, benches and examples are not among it.
+/// What a user of asunder builds; tests, benches and examples are not part of it.
 const LIBRARY: [&str; 5] =
     ["asunder", "asunder-geometry", "asunder-broad", "asunder-narrow", "asunder-scenes"];
 
@@ -24,7 +24,7 @@ struct Graph {
 
 impl Graph {
     fn read() -> Self {
-        // For this platform alone: other platforms' packages need not have been downloaded to run the tests.
+        // For this platform only: other platforms' packages need not have been downloaded to run the tests.
         let metadata =
             cargo(&["metadata", "--format-version", "1", "--locked", "--filter-platform", &host_platform()]);
         let metadata: Value = serde_json::from_str(&metadata).unwrap();
@@ -51,7 +51,7 @@ impl Graph {
         Self { names, edges, declared }
     }
 
-    /// Names of all packages that a package's build needs, itself among them. Its tests may need more.
+    /// Names of all packages that a package's build needs, including itself. Its tests may need more.
     fn reachable(&self, name: &str) -> BTreeSet<String> {
         let start = self.names.iter().find(|(_, known)| *known == name);
         let mut open: Vec<String> = vec![start.unwrap_or_else(|| panic!("no package {name}")).0.clone()];
@@ -68,7 +68,7 @@ impl Graph {
     }
 }
 
-/// What cargo prints in the workspace root.
+/// The output of cargo in the workspace root.
 fn cargo(arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO")).args(arguments).current_dir(root()).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -92,7 +92,7 @@ fn text(value: &Value) -> &str {
 fn no_library_crate_can_reach_parry() {
     let graph = Graph::read();
     for parry in ["parry3d", "parry3d-f64"] {
-        // The walk must be able to find it at all.
+        // The search must be able to find it at all.
         assert!(graph.reachable("asunder-tests").contains(parry));
         for name in LIBRARY {
             assert!(!graph.reachable(name).contains(parry), "{name} reaches {parry}");
@@ -156,7 +156,7 @@ fn the_readme_shows_the_hello_example_and_names_paths_that_exist() {
     assert!(missing.is_empty(), "named in README.md and not there: {missing:?}");
 }
 
-/// Files of the examples' stepper, tests left out: `examples/src/stepper.rs examples/src/stepper/*.rs`.
+/// Source files of the examples' stepper, without tests: `examples/src/stepper.rs examples/src/stepper/*.rs`.
 fn stepper() -> Vec<(PathBuf, String)> {
     let source = root().join("examples/src");
     let parts = std::fs::read_dir(source.join("stepper")).unwrap().map(|entry| entry.unwrap().path());
@@ -167,7 +167,7 @@ fn stepper() -> Vec<(PathBuf, String)> {
     files.into_iter().map(|path| (path.clone(), std::fs::read_to_string(path).unwrap())).collect()
 }
 
-/// Lines that are neither blank nor comment nor documentation.
+/// Lines that are neither blank nor comments.
 fn code(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with("//"))
 }
@@ -185,7 +185,7 @@ fn the_stepper_stands_on_the_engine_alone() {
         let uses = code(text).filter_map(|line| line.strip_prefix("pub use ").or(line.strip_prefix("use ")));
         let foreign: Vec<&str> = uses.filter(|path| !is_known(path)).collect();
         assert!(foreign.is_empty(), "{}: {foreign:?}", path.display());
-        // What needs no `use` is named by a path: the layers above by `crate`, or by a `super` of the whole module.
+        // Paths that need no `use`: the layers above by `crate`, or by a `super` of the whole module.
         let above =
             ["crate::", "super::super", "asunder_examples", "asunder_broad", "asunder_narrow", "libm::"];
         let named: Vec<&str> =
@@ -198,8 +198,8 @@ fn the_stepper_stands_on_the_engine_alone() {
 #[test]
 fn the_stepper_is_as_small_as_the_architecture_page_says() {
     let lines: usize = stepper().iter().map(|(_, text)| code(text).count()).sum();
-    // It is there to be read whole, in both dimensions: about 500 lines were asked for. What needs more is a layer on
-    // it.
+    // It is meant to be read whole, in both dimensions: about 500 lines were the goal. What needs more belongs in a
+    // layer on top of it.
     assert!(lines <= 550, "{lines} lines of code: move to `game` what a stepper can do without");
     let page = std::fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
     assert!(page.contains(&format!("The examples' stepper is {lines} lines of code")), "it is {lines} lines");

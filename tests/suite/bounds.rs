@@ -1,4 +1,4 @@
-//! Boxes around posed shapes: no vertex outside, and no more room than rounding needs.
+//! AABBs of posed shapes: no vertex outside, and no wider than rounding requires.
 
 use asunder_geometry::{Aabb2, Aabb3, Pose2, Pose3, Shape3};
 use asunder_tests::cases::Random;
@@ -9,9 +9,9 @@ use glam::{DVec2, DVec3};
 /// Near the origin, a kilometre out, and as far as a body may be.
 const DISTANCES: [f64; 5] = [0.0, 1.0, 1e3, 1e6, 9e8];
 
-/// One side of a box around true extents: outside them, by no more than two f32 steps there, and `room`.
+/// Checks one side of an AABB against true extents: outside them, by at most two f32 ulps there, and `room`.
 fn check_side(side: (f32, f32), [low, high]: [f64; 2], room: f64, what: &str) {
-    // The judges' own vertices are off by a few f64 steps at their place.
+    // The oracles' own vertices are off by a few f64 ulps of their coordinates.
     let noise = 8.0 * f64::EPSILON * low.abs().max(high.abs());
     let (least, greatest) = (f64::from(side.0), f64::from(side.1));
     assert!(least <= low + noise && greatest >= high - noise, "{side:?} loses {low}..{high}: {what}");
@@ -23,7 +23,7 @@ fn check_side(side: (f32, f32), [low, high]: [f64; 2], room: f64, what: &str) {
     );
 }
 
-/// Vertices of hulls are turned in f32, eight at a time: four units of 2^-24 of a sum of three terms.
+/// Vertices of hulls are rotated in f32, eight at a time: four units of 2^-24 of a sum of three terms.
 fn room(shape: &Shape3) -> f64 {
     let Shape3::Hull(hull) = shape else { return 0.0 };
     5e-7 * hull.vertices().iter().map(|vertex| f64::from(vertex.abs().max_element())).fold(0.0, f64::max)

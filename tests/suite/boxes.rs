@@ -1,5 +1,5 @@
-//! Pairs of cuboids, which have kernels of their own: eight side by side are what each is alone, and what exact
-//! arithmetic says; the other way round they mirror each other.
+//! Pairs of cuboids, which have kernels of their own: eight at a time give what each gives alone, and what exact
+//! arithmetic says; swapping A and B mirrors them.
 
 use asunder_geometry::{Cuboid, Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, collide3, separations3};
@@ -34,7 +34,7 @@ fn manifolds<'a>(answer: &Answer, batch: &'a Batch3) -> &'a [Manifold3] {
     }
 }
 
-/// In another order, so that lanes are full of all kinds.
+/// Shuffles a list, so that the lanes hold a mix of all kinds.
 fn shuffled<T>(mut list: Vec<T>, random: &mut Random) -> Vec<T> {
     for i in (1..list.len()).rev() {
         list.swap(i, random.below(i + 1));
@@ -42,7 +42,7 @@ fn shuffled<T>(mut list: Vec<T>, random: &mut Random) -> Vec<T> {
     list
 }
 
-/// Cuboids of every set, and among them rounded ones and other shapes, which go other ways.
+/// Cuboids of every set, mixed with rounded ones and other shapes, which take other paths.
 fn crowd() -> Vec<PosedPair3> {
     let mut random = Random::new(5100);
     let mut pairs: Vec<PosedPair3> =
@@ -68,7 +68,7 @@ fn a_batch_says_bit_for_bit_what_each_pair_says_alone() {
             .map(|i| job(&crowd[i], margins[(i + frame) % margins.len()], hints[i], random.below(4) == 0))
             .collect();
         let mut together = Batch3::default();
-        // Slices of every length, so that lanes are full, and not.
+        // Slices of every length, so that lanes are sometimes full and sometimes not.
         let mut rest = &jobs[..];
         while !rest.is_empty() {
             let (now, later) = rest.split_at((1 + random.below(70)).min(rest.len()));
@@ -85,7 +85,7 @@ fn a_batch_says_bit_for_bit_what_each_pair_says_alone() {
                 "{:?}",
                 crowd[i]
             );
-            // Debug output tells zeros of either sign apart.
+            // Debug output distinguishes 0.0 from -0.0.
             let (one, other) = (manifolds(one, &together), manifolds(other, &alone));
             assert_eq!(format!("{one:?}"), format!("{other:?}"), "{:?}", crowd[i]);
             apart += usize::from(overlapping(&alone.answers[0]).is_none());
@@ -115,13 +115,13 @@ fn separations_of_many_are_bit_for_bit_those_of_each() {
     }
 }
 
-/// Two cuboids a corner, an edge or a face of which are so far apart, by nothing or a few roundings.
+/// Two cuboids whose corners, edges or faces touch, or are apart or overlap by a few roundings.
 fn near(random: &mut Random, round: usize) -> Case3 {
     let mut half = || Vec3::new(1.0 + random.below(8) as f32, 1.0 + random.below(8) as f32, 1.0) / 8.0;
     let (a, b) = (half(), half());
     let gap = [0.0, 1e-16, -1e-16, 1e-14, -1e-14, 1e-9, -1e-9][round % 7];
     let turn = if round.is_multiple_of(2) { Quat::IDENTITY } else { random.quaternion() };
-    // On one, two or three of A's own axes: face, edge or corner.
+    // Offset along one, two or three of A's axes: face, edge or corner.
     let sides = [DVec3::X, DVec3::new(1.0, -1.0, 0.0), DVec3::NEG_ONE][round % 3];
     let away = sides * ((a + b).as_dvec3() + DVec3::splat(gap));
     let pose_a = Pose3::new(random.vector() * 100.0, turn).unwrap();
@@ -187,14 +187,14 @@ fn no_hint_changes_whether_they_overlap() {
                 batch
             };
             let fresh = ask(&|_| Hint::NONE);
-            // Of other pairs, and of other sets.
+            // Hints of other pairs, and of other sets.
             let misled = ask(&|i| hints[(7 * i + 3) % hints.len()]);
             let hinted = ask(&|i| hint_of(&misled.answers[i]));
             for (i, pair) in frame.iter().enumerate() {
                 let said = |batch: &Batch3| overlapping(&batch.answers[i]);
                 assert_eq!(said(&fresh), said(&misled), "{pair:?}");
                 assert_eq!(said(&fresh), said(&hinted), "{pair:?}");
-                // The separation is that of the best axis, whatever the points are made on.
+                // The separation is that of the best axis, whichever axis the points are built on.
                 let number = |batch: &Batch3| {
                     manifolds(&batch.answers[i], batch).first().map(|found| (found.separation, found.error))
                 };
@@ -220,7 +220,7 @@ fn the_other_way_round_they_mirror_each_other() {
             let apart = (f64::from(one.separation) - f64::from(other.separation)).abs();
             assert!(apart <= f64::from(one.error) + f64::from(other.error), "{pair:?}");
             all += 1;
-            // Faces that look at each other are equally good, and A's comes first: then the points are made on another.
+            // Opposite faces are equally good, and A's comes first: swapped, the points are built on another.
             if (one.normal + other.normal).length() > 1e-6 {
                 continue;
             }

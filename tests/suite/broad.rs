@@ -18,13 +18,13 @@ fn swept<B: Bounds>(boxes: &[B], admit: impl Fn(u32, u32) -> bool + Sync) -> Vec
     pairs.iter().map(|pair| (pair.a, pair.b)).collect()
 }
 
-/// Same pairs as the double loop, as a list and to a visitor, with and without a filter; returns how many.
+/// Asserts that list and visitor give the pairs of the double loop, with and without a filter; returns how many.
 fn check<B: Bounds + Sides>(boxes: &[B]) -> usize {
     let everything = brute_pairs(boxes, |_, _| true);
     assert_eq!(swept(boxes, |_, _| true), everything);
     let admit = |a: u32, b: u32| !(a ^ b).is_multiple_of(3);
     let filtered = brute_pairs(boxes, admit);
-    // The filter is asked with the lower number first, and only about boxes that overlap.
+    // The filter is called with the lower number first, and only for boxes that overlap.
     let asked = |a: u32, b: u32| {
         assert!(everything.binary_search(&(a, b)).is_ok(), "asked about {a}, {b}, which are apart");
         admit(a, b)
@@ -60,7 +60,7 @@ fn random_boxes_of_every_density() {
     let mut random = Random::new(700);
     let mut counts = Vec::new();
     for size in [0.002, 0.02, 0.1, 0.5, 2.0] {
-        // Cubic rooms, a flat one, and a shaft: the widest axis is each of the three.
+        // Cubic rooms, a flat one, and a shaft: each of the three axes is the widest once.
         for room in [Vec3::ONE, Vec3::new(1.0, 0.02, 1.0), Vec3::new(0.01, 0.01, 5.0), Vec3::X, Vec3::Y] {
             let boxes: Vec<_> = (0..500).map(|_| random_box3(&mut random, room, size)).collect();
             counts.push(check(&boxes));
@@ -80,13 +80,13 @@ fn nasty_boxes() {
     let mut random = Random::new(701);
     let mut pairs = 0;
     for round in 0..400 {
-        // NaN in every tenth round only, or few boxes would be left that are boxes.
+        // NaN in every tenth round only, or few valid boxes would be left.
         let skip = usize::from(round % 10 != 0);
         let mut corner = || Vec3::from_array([0; 3].map(|_| NASTY[skip + random.below(NASTY.len() - skip)]));
         let boxes: Vec<Aabb3> = (0..60)
             .map(|i| {
                 let (p, q) = (corner(), corner());
-                // Every fourth box stays inverted if it came so.
+                // Every fourth box may be inverted.
                 if i % 4 == 0 { Aabb3::new(p, q) } else { Aabb3::new(p.min(q), p.max(q)) }
             })
             .collect();
@@ -122,7 +122,8 @@ fn identical_touching_and_flat_boxes() {
             Aabb3::new(low, low + Vec3::ONE)
         })
         .collect();
-    // Cells touch where no axis is more than one step apart: 28 of 100 pairs an axis, both ways and with itself.
+    // Cells touch if they are at most one step apart on every axis: 28 of 100 ordered pairs per axis, including equal
+    // ones.
     assert_eq!(check(&grid), (28_usize.pow(3) - 1000) / 2);
     let segments: Vec<Aabb2> =
         (0..100).map(|i| Aabb2::new(Vec2::new(i as f32, 0.0), Vec2::new(i as f32 + 1.0, 0.0))).collect();
@@ -143,7 +144,7 @@ fn too_many_pairs_is_an_error_and_leaves_nothing() {
         assert_eq!(limited(limit), (Err(TooManyPairs { limit }), 0));
     }
     assert_eq!(limited(count), (Ok(()), count), "the limit itself is allowed");
-    // What the filter drops does not count.
+    // Pairs that the filter drops do not count.
     let kept = sweep.pairs(&boxes, |a, _| a == 0, 19, &mut pairs);
     assert_eq!((kept, pairs.len()), (Ok(()), 19));
 }
@@ -163,7 +164,7 @@ fn a_visitor_may_break_off() {
     assert!(outcome.is_break() && seen == 5);
 }
 
-/// Scratch memory holds no history: after any other boxes, the answer is that of a new sweep.
+/// Scratch memory carries no history: after any other boxes, the answer is that of a new sweep.
 #[test]
 fn a_sweep_remembers_nothing() {
     let mut random = Random::new(702);
@@ -177,7 +178,7 @@ fn a_sweep_remembers_nothing() {
     }
 }
 
-/// Pairs by both sweeps; the double loop would take too long.
+/// Asserts that both sweeps give the same pairs; the double loop would take too long.
 fn same_as_plain<B: Bounds>(sweep: &mut Sweep, boxes: &[B], what: &str) -> usize {
     let (mut pairs, mut plain) = (Vec::new(), Vec::new());
     sweep.pairs(boxes, |a, b| (a ^ b) % 7 != 0, usize::MAX, &mut pairs).unwrap();
@@ -205,8 +206,7 @@ fn every_scene_has_the_pairs_of_the_plain_sweep_in_every_frame() {
     }
 }
 
-/// Clumps of clumps of clumps, giants among crumbs, all on one spot, all at one height: what makes grids fall off a
-/// cliff.
+/// Clusters of clusters of clusters, giants among crumbs, all on one spot, all at one height: the worst cases of grids.
 #[test]
 fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
     let mut random = Random::new(703);
@@ -247,8 +247,8 @@ fn crowds_in_crowds_and_giants_have_the_pairs_of_the_plain_sweep() {
     assert!(same_as_plain(&mut sweep, &needles, "needles") > 50);
 }
 
-/// Boxes far outside of where most are, clusters in clusters, and boxes of three sizes on one spot: what leaves
-/// most boxes in one column.
+/// Boxes far away from most others, clusters in clusters, and boxes of three sizes on one spot: cases that leave most
+/// boxes in one column.
 #[test]
 fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
     let mut random = Random::new(704);
@@ -274,8 +274,8 @@ fn what_leaves_most_boxes_in_one_column_has_the_pairs_of_the_plain_sweep() {
     assert!(same_as_plain(&mut sweep, &spots, "one spot") > 500_000);
 }
 
-/// Boxes come, go, rest, wake and jump, few or many a frame, filters change, limits are hit: the list is always
-/// that of a sweep that knows nothing of before.
+/// Boxes come, go, rest, wake and jump, few or many per frame, filters change, limits are reached: the list is always
+/// that of a sweep without history.
 #[test]
 fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     let mut random = Random::new(704);
@@ -288,7 +288,7 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
         let (mut pairs, mut fresh) = (Vec::new(), Vec::new());
         for frame in 0..60 {
             let mut moved = Vec::new();
-            // Bursts, stretches of rest, and now and then everything.
+            // Bursts, stretches of rest, and sometimes everything.
             let share = [0.0, 0.0, 0.02, 0.1, 0.5][random.below(5)] * f64::from(u8::from(frame % 20 < 15));
             for place in 0..boxes.len() {
                 if random.between(0.0, 1.0) < share {
@@ -311,7 +311,7 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
                 layers.push(3);
             }
             if random.below(3) == 0 {
-                // Said to have moved, and did not; and a box that there is not.
+                // A box that is said to have moved and did not; and boxes that do not exist.
                 moved.extend([boxes.len() as u32 - 1, boxes.len() as u32, u32::MAX]);
             }
             let admit = |a: u32, b: u32| layers[a as usize] & layers[b as usize] != 0;
@@ -341,8 +341,8 @@ fn a_coherent_sweep_has_the_pairs_of_a_fresh_one_whatever_came_before() {
     assert!(kept_frames > 600 && refused > 100, "{kept_frames} frames with few movers, {refused} refused");
 }
 
-/// Movers that reach many columns are looked up while that costs less than to sweep all; then all are swept, and the
-/// filter is asked about pairs at rest, too. Either way about each pair once.
+/// Moving boxes that reach many columns are looked up while that costs less than a full sweep; beyond that all are
+/// swept, and the filter is called for resting pairs, too. Either way once for each pair.
 #[test]
 fn movers_that_reach_too_far_are_swept_with_all_others() {
     let mut random = Random::new(705);
@@ -351,7 +351,7 @@ fn movers_that_reach_too_far_are_swept_with_all_others() {
     let (mut pairs, mut fresh, mut ways) = (Vec::new(), Vec::new(), Vec::new());
     for sheets in [1, 4000] {
         let mut coherent = CoherentSweep::new();
-        // The first sweep keeps nothing, and the second all.
+        // The first sweep keeps nothing, the second everything.
         for _ in 0..2 {
             coherent.update(&rest, &[], |_, _| true, usize::MAX, &mut pairs).unwrap();
         }
@@ -386,7 +386,7 @@ fn movers_that_reach_too_far_are_swept_with_all_others() {
 fn the_list_is_the_same_on_1_2_8_and_16_threads() {
     let named = [BoxScene::Pile, BoxScene::Islands, BoxScene::Sizes]
         .map(|scene| (scene.name(), MovingBoxes::new(scene, 35_000, 6).boxes));
-    // Some are so laid out that columns are of no use: in one of them, or in all.
+    // Some are laid out so that columns are of no use: one of them, or all.
     let hurting =
         [HurtScene::Needles, HurtScene::Quarters].map(|scene| (scene.name(), scene.boxes(100_000, 6)));
     for (name, boxes) in named.into_iter().chain(hurting) {
@@ -396,7 +396,7 @@ fn the_list_is_the_same_on_1_2_8_and_16_threads() {
                 let mut sweep = Sweep::new();
                 let mut pairs = Vec::new();
                 let outcome = sweep.pairs(&boxes, |a, b| (a ^ b) % 5 != 0, limit, &mut pairs);
-                // Again, with the memory of the first time.
+                // Again, reusing the memory of the first time.
                 assert_eq!(sweep.pairs(&boxes, |a, b| (a ^ b) % 5 != 0, limit, &mut pairs), outcome);
                 (outcome, pairs)
             })

@@ -1,6 +1,6 @@
-//! Casts in space, against fine sampling with exact yes or no, parry3d, and the laws they obey.
+//! Casts in space, against fine sampling with the exact overlap test, parry3d, and the laws they obey.
 //!
-//! The judges are [`Pair3::overlaps`] and [`Pair3::separation`] at poses on the way, which are held against exact
+//! The oracles are [`Pair3::overlaps`] and [`Pair3::separation`] at poses on the way, which are tested against exact
 //! arithmetic elsewhere ([`exactness`](crate::exactness), [`separation`](crate::separation)).
 
 mod hard;
@@ -14,15 +14,15 @@ use asunder_geometry::{Motion3, Pose3, Shape3};
 use asunder_narrow::{Impact3, Pair3, Separation3};
 use asunder_tests::cases::Case3;
 
-/// Places on the way at which the judges are asked, besides those next to the impact.
+/// Poses on the way at which the oracles are evaluated, besides those next to the impact.
 const SAMPLES: usize = 48;
 
-/// What an infinite shape adds to a pair's size: nothing.
+/// A radius for a pair's size; an infinite shape adds nothing.
 pub(crate) fn finite(radius: f32) -> f64 {
     if radius.is_finite() { radius.into() } else { 0.0 }
 }
 
-/// A case, both bodies' motions, and what is asked of them.
+/// A case and the motions of both bodies.
 pub(crate) struct Course<'a> {
     pub(crate) case: &'a Case3,
     pub(crate) motions: [Motion3; 2],
@@ -39,7 +39,7 @@ impl Course<'_> {
             .map(|(motion, pose)| motion.pose_at(pose, fraction))
     }
 
-    /// The separation at a fraction, at poses that are rounded, and its error.
+    /// The separation at a fraction, at rounded poses, and its error.
     pub(crate) fn separation(&self, fraction: f64) -> (f64, f64) {
         let [a, b] = self.poses(fraction);
         match Pair3::new(&self.case.shape_a, &a, &self.case.shape_b, &b).separation(f32::INFINITY) {
@@ -48,7 +48,7 @@ impl Course<'_> {
         }
     }
 
-    /// By how much poses on the way may be beside it: positions are rounded to f64, rotations to f32.
+    /// How far off poses on the way may be: positions are rounded to f64, rotations to f32.
     pub(crate) fn rounding(&self) -> f64 {
         let Case3 { shape_a, pose_a, shape_b, pose_b } = self.case;
         let [a, b] = [(pose_a, &self.motions[0]), (pose_b, &self.motions[1])].map(|(pose, motion)| {
@@ -66,7 +66,7 @@ impl Course<'_> {
         a + b + turn
     }
 
-    /// Asks the judges on the way up to a fraction: none may see the shapes deeper in each other than rounding.
+    /// Asserts that up to a fraction of the way no overlap is deeper than rounding.
     pub(crate) fn check_free(&self, until: f64, message: &str) {
         let near = [1e-9, 1e-6, 1e-3].map(|share| until * (1.0 - share));
         for fraction in (0..=SAMPLES).map(|i| until * i as f64 / SAMPLES as f64).chain(near) {
@@ -83,7 +83,7 @@ impl Course<'_> {
         }
     }
 
-    /// All that must hold of an impact, or of there being none.
+    /// Checks an impact, or that there is none.
     pub(crate) fn check(&self, impact: Option<Impact3>, message: &str) {
         let start = Pair3::new(&self.case.shape_a, &self.case.pose_a, &self.case.shape_b, &self.case.pose_b);
         let Some(impact) = impact else {
@@ -104,12 +104,12 @@ impl Course<'_> {
         self.check_place(&impact, &told);
     }
 
-    /// The anchors are where the shapes meet, and the normal parts them there.
+    /// Asserts that the anchors are where the shapes meet, and that the normal separates them there.
     fn check_place(&self, impact: &Impact3, told: &str) {
         let [a, b] = self.poses(impact.fraction);
         let [on_a, on_b] = [impact.anchor_a, impact.anchor_b].map(|anchor| anchor.as_dvec3());
         let between = b.position() - a.position();
-        // Anchors are f32, relative to each body's own position.
+        // Anchors are f32, relative to each body's position.
         let reach = self.size() + on_a.length() + on_b.length() + between.length();
         let slack = f64::from(impact.error) + 4e-7 * reach + self.rounding();
         assert!((on_b + between - on_a).length() <= slack, "anchors {told}");

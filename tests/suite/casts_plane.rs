@@ -1,5 +1,5 @@
-//! Casts in the plane: of random pairs of every kind of shape, fine sampling and the exact yes or no judge what is
-//! said of when they meet, whether they move only or turn as well; and rays, by the same with a tiny circle.
+//! Casts in the plane: random pairs of every kind of shape, moving and turning, against fine sampling with the exact
+//! overlap test; and rays, by the same with a tiny circle.
 
 use asunder_geometry::{
     Circle, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Shape2, tolerance::CAST_GAP2,
@@ -9,12 +9,12 @@ use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS2, Kind, PLACES, pair2};
 use glam::{DVec2, Vec2};
 
-/// An exact power of two, of a normal f64.
+/// An exact power of two, as a normal f64.
 fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }
 
-/// One pair and how both move.
+/// A pair of shapes and their motions.
 struct Ride<'a> {
     shapes: [&'a Shape2; 2],
     from: [Pose2; 2],
@@ -31,7 +31,7 @@ impl Ride<'_> {
         self.at(0.0).impact(&self.motions[0], &self.motions[1])
     }
 
-    /// Demands all that an impact promises, by so many samples, and returns whether there was one.
+    /// Checks everything that an impact promises, with this many samples; returns whether there was one.
     fn judge(&self, found: Option<Impact2>, samples: u32, name: &str) -> bool {
         let end = found.map_or(1.0, |found| found.fraction);
         if self.at(0.0).overlaps() {
@@ -43,7 +43,7 @@ impl Ride<'_> {
             );
             return true;
         }
-        // Evenly, and ever closer to the impact.
+        // Evenly spaced, and ever closer to the impact.
         let evenly = (0..samples).map(|i| end * f64::from(i) / f64::from(samples));
         let near = (1..40).map(|i| end * (1.0 - power_of_two(-i)));
         for fraction in evenly.chain(near).filter(|&fraction| fraction < end) {
@@ -65,7 +65,7 @@ impl Ride<'_> {
         true
     }
 
-    /// The anchors are points of both shapes that meet, as far as f32 can say where they are.
+    /// Asserts that the anchors are points of both shapes that coincide, as far as f32 can represent them.
     fn judge_anchors(&self, found: &Impact2, name: &str) {
         let [a, b] =
             [0, 1].map(|which: usize| self.motions[which].pose_at(&self.from[which], found.fraction));
@@ -77,7 +77,7 @@ impl Ride<'_> {
     }
 }
 
-/// Every kind with every other, save two half-planes, which no place puts beside each other.
+/// Every kind with every other, except two half-planes, which always overlap.
 fn kinds() -> impl Iterator<Item = (&'static Kind<Shape2>, &'static Kind<Shape2>)> {
     let all = KINDS2.iter().flat_map(|a| KINDS2.iter().map(move |b| (a, b)));
     all.filter(|(a, b)| (a.0, b.0) != ("half-plane", "half-plane"))
@@ -108,7 +108,7 @@ fn of_every_two_kinds_of_shape_the_first_touch_is_where_sampling_finds_it() {
             let case = bodies.case();
             let (shapes, mut from) = ([&case.shape_a, &case.shape_b], [case.pose_a, case.pose_b]);
             let by = towards(&mut random, shapes, [&from[0], &from[1]]).as_vec2();
-            // Most pairs of the table overlap: begin further back.
+            // Most pairs of the table overlap: start further back.
             if round % 3 > 0 {
                 let back = from[0].position() - by.as_dvec2() * random.between(0.5, 2.0);
                 from[0] = Pose2::new(back.clamp(DVec2::splat(-1e9), DVec2::splat(1e9)), from[0].rotation())
@@ -119,7 +119,7 @@ fn of_every_two_kinds_of_shape_the_first_touch_is_where_sampling_finds_it() {
             let found = Pair2::new(shapes[0], &from[0], shapes[1], &from[1]).cast(by);
             let is_hit = ride.judge(found, 24, &name);
             (hits, misses) = (hits + u32::from(is_hit), misses + u32::from(!is_hit));
-            // Told as two motions it is the same.
+            // Given as two motions, the result is the same.
             assert_eq!(ride.impact().is_some(), is_hit, "{name}");
             ride.judge(ride.impact(), 2, &name);
         }
@@ -265,7 +265,7 @@ fn polygons_of_4096_vertices_meet_where_their_circles_do() {
         let ride = of([&many, &many]);
         let found = ride.impact();
         assert!(ride.judge(found, 30, &format!("round {round}")));
-        // An edge is 1.5e-3 m long and 3e-7 m inside its circle.
+        // An edge is 1.5e-3 m long and at most 3e-7 m inside its circle.
         let circles = of([&ball, &ball]).impact().unwrap();
         assert!((circles.fraction - found.unwrap().fraction).abs() < 1e-5, "{circles:?} {found:?}");
     }
@@ -298,7 +298,7 @@ fn no_motion_touches_nothing_new_and_a_huge_one_tunnels_through_nothing() {
             }
         }
     }
-    // A bullet of a micrometre at 1e9 m a motion.
+    // A bullet of a micrometre with a motion of 1e9 m.
     let bullet: Shape2 = Circle::new(1e-6).unwrap().into();
     let (here, there) = (Pose2::at([-5.0, 0.0]).unwrap(), Pose2::at([5e8, 0.0]).unwrap());
     let shot = Pair2::new(&bullet, &here, &bullet, &there).cast(Vec2::X * 1e9).unwrap();
@@ -356,7 +356,7 @@ fn rays_enter_where_points_along_them_say() {
         let ray = Ray2::new(origin, direction).unwrap();
         let found = cast_ray2(&shape, &pose, &ray, f64::INFINITY);
         let name = format!("{} in round {round}: {found:?}", kind.0);
-        // Segments have no inside that a sample could meet.
+        // Segments have no interior that a sample could hit.
         let holds = |t: f64| shape.contains(pose.transform_back(ray.at(t)));
         let per = f64::from(direction.length());
         let rounding = 1e-13 * (reach + origin.distance(pose.position())) / per
@@ -387,7 +387,7 @@ fn rays_enter_where_points_along_them_say() {
         }
         assert!(found.normal.dot(direction.normalize()) < 1e-6, "{name}");
         assert!((found.normal.length() - 1.0).abs() < 1e-6, "{name}");
-        // A probe of a thousandth of the size there touches, and further back along the normal it does not.
+        // A probe of a thousandth of the size touches there, and further back along the normal it does not.
         let probe: Shape2 = Circle::new((reach * 1e-3) as f32).unwrap().into();
         let touches = |aside: f64| {
             let at = Pose2::at(ray.at(found.distance) + found.normal.as_dvec2() * (reach * aside)).unwrap();
@@ -423,7 +423,7 @@ fn whether_a_ray_starts_inside_is_what_the_shape_says_of_its_corners() {
             }
         };
         for beside in [DVec2::ZERO, DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y] {
-            // Eighths have room for this.
+            // Coordinates in eighths leave room for this in f64.
             let origin = on + beside * power_of_two(-50);
             let ray = Ray2::new(origin, random.direction2().as_vec2()).unwrap();
             let inside = cast_ray2(&shape, &Pose2::IDENTITY, &ray, 1.0).is_some_and(|hit| hit.inside);
@@ -435,8 +435,8 @@ fn whether_a_ray_starts_inside_is_what_the_shape_says_of_its_corners() {
     assert_eq!(cast_ray2(&floor, &Pose2::IDENTITY, &along, f64::INFINITY), None);
 }
 
-/// Symptom: a ray at a turned circle of a hundred kilometres was 0.8 mm off, with an error of 1e-8 m. Cause: cosines
-/// and sines are rounded, and stretched the radius with all else, which they do not.
+/// Symptom: a ray at a rotated circle of a hundred kilometres was 0.8 mm off, with an error of 1e-8 m. Cause: stored
+/// cosines and sines are rounded, and their length was applied to the radius as well, which does not rotate.
 #[test]
 fn radii_are_not_turned_and_not_stretched() {
     let mut random = Random::new(0xC1BC);

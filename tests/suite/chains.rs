@@ -1,12 +1,12 @@
 //! Chains: polylines to stand on.
 //!
-//! - [`exact`]: what is asked about the set of points, against the definition: the least over all segments, and exact
-//!   arithmetic
+//! - [`exact`]: queries about the chain as a set of points, against the definition: the least over all segments, and
+//!   exact arithmetic
 //! - [`sliding`]: no ghost collisions on straight lines that are cut, at any angle, distance and speed
 //! - [`surfaces`]: arcs, corners, hollows, loose ends, sides, thin walls
-//! - [`casts`]: rays and shapes that move, against all segments; normals; who walks
-//! - [`onwards`]: what bodies run into next that touch a chain already
-//! - [`worlds`]: events, snapshots, questions
+//! - [`casts`]: rays and moving shapes, against all segments; normals; characters that walk
+//! - [`onwards`]: what bodies that already touch a chain run into next
+//! - [`worlds`]: events, snapshots, queries
 
 mod casts;
 mod exact;
@@ -18,13 +18,13 @@ mod worlds;
 use asunder::glam::{DVec2, Vec2};
 use asunder::{Capsule2, Chain, Circle, Polygon, Pose2, Rect, Rotation2, Shape2};
 
-/// Numbers that look random, from 0 to 1.
+/// Hashed numbers from 0 to 1.
 fn noise(i: usize) -> f64 {
     let mixed = (i as u64).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     ((mixed ^ mixed >> 29).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Places from 0 to a length, uneven: some pieces are a thousandth of the others.
+/// Positions from 0 to a length, unevenly spaced: some pieces are a thousandth of the others.
 fn cuts(length: f64, count: usize) -> Vec<f64> {
     let steps: Vec<f64> =
         (0..count).map(|i| if i % 5 == 3 { 1e-3 } else { 0.5 + noise(i * 31 + count) }).collect();
@@ -50,7 +50,7 @@ fn cut_line(from: DVec2, to: DVec2, count: usize) -> Vec<Vec2> {
     cuts((to - from).length(), count).into_iter().map(|at| (from + along * at).as_vec2()).collect()
 }
 
-/// Bodies of about a metre that slide, by name, and how far below its centre each has its foot.
+/// Sliding bodies of about a metre: name, shape, and how far its foot is below its centre.
 fn sliders() -> Vec<(&'static str, Shape2, f64)> {
     let rect = Rect::from_half_extents(Vec2::new(0.5, 0.25)).unwrap();
     let hexagon: Vec<Vec2> =
@@ -66,7 +66,7 @@ fn sliders() -> Vec<(&'static str, Shape2, f64)> {
     ]
 }
 
-/// The rotation whose x axis leads along a unit vector.
+/// The rotation that takes the x axis to a unit vector.
 fn turned(along: DVec2) -> Rotation2 {
     Rotation2::new(along.x as f32, along.y as f32).unwrap()
 }

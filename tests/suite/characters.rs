@@ -1,4 +1,4 @@
-//! Characters: what they never do (enter, pass through, tremble), and what a player expects of them on floors,
+//! Characters: what they never do (enter, pass through, tremble), and how a player expects them to behave on floors,
 //! stairs, slopes and along walls; in space and in the plane.
 
 mod edges;

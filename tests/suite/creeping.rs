@@ -1,4 +1,4 @@
-//! Worlds whose bodies creep: what is carried on from frame to frame says what a world says that was made this frame.
+//! Worlds whose bodies creep: what is carried over from frame to frame agrees with a world made in this frame.
 //!
 //! Steps are from a ten-millionth of a body's size to a hundredth, so that pairs stay apart for many frames, manifolds
 //! are moved along for some, and both end within the run.
@@ -13,17 +13,17 @@ use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
 const FRAMES: usize = 120;
 
-/// What is compared of a contact.
+/// The compared part of a contact.
 #[derive(Debug)]
 struct Seen {
     bodies: (usize, usize),
     overlapping: bool,
-    /// Of each manifold: its separation and error.
+    /// Separation and error of each manifold.
     manifolds: Vec<(f64, f64)>,
 }
 
-/// Fails unless both say the same: overlaps in every bit, separations within their errors, and contacts or none but
-/// where the error of the margin leaves it open.
+/// Asserts that both agree: overlaps in every bit, separations within their errors, and the presence of a contact
+/// except where the error leaves the comparison with the margin open.
 fn check_alike(carried: &[Seen], fresh: &[Seen], margin: f64, story: &str) {
     let of = |list: &[Seen], bodies: (usize, usize)| list.iter().position(|seen| seen.bodies == bodies);
     for (one, others) in [(carried, fresh), (fresh, carried)] {
@@ -41,7 +41,7 @@ fn check_alike(carried: &[Seen], fresh: &[Seen], margin: f64, story: &str) {
     }
 }
 
-/// One body's way: a step a frame, and a turn about its middle.
+/// A body's motion: a step per frame, and a rotation about its centre.
 struct Way {
     step: DVec3,
     turn: DVec3,
@@ -50,7 +50,7 @@ struct Way {
 fn ways(count: usize, random: &mut Random) -> Vec<Way> {
     (0..count)
         .map(|i| {
-            // A third trembles, a third creeps, a third goes.
+            // A third of the bodies tremble, a third creep, a third walk.
             let speed = [1e-7, 1e-5, 1e-3][i % 3] * random.range(0.3, 3.0);
             let turn = if i % 2 == 0 { DVec3::ZERO } else { random.direction() * speed };
             Way { step: random.direction() * speed, turn }
@@ -74,7 +74,8 @@ fn compound() -> Compound3 {
     Compound3::new([(at(-0.3), part.clone()), (at(0.3), part)]).unwrap()
 }
 
-/// What is compared of a contact, its bodies by their places among all; `numbers` is a manifold's separation and error.
+/// The compared part of a contact. Bodies are given by their index; `numbers` returns a manifold's separation and
+/// error.
 fn seen<K: Copy + PartialEq, M>(
     contact: &Contact<'_, K, M>,
     keys: &[K],
@@ -116,7 +117,7 @@ fn what_is_carried_on_is_what_a_new_world_finds_in_space() {
         for frame in 0..FRAMES {
             for (i, (_, pose)) in bodies.iter_mut().enumerate().skip(1) {
                 let Way { step, turn } = &ways[i];
-                // To and fro, so that nobody leaves.
+                // Back and forth, so that no body leaves.
                 let sense = if frame / 20 % 2 == 0 { 1.0 } else { -1.0 };
                 let turned = DQuat::from_xyzw(turn.x, turn.y, turn.z, 2.0 * sense).normalize();
                 let rotation = if *turn == DVec3::ZERO {

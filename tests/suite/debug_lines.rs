@@ -18,8 +18,8 @@ const SHAPES: DebugOptions = DebugOptions {
     endless: 20.0,
 };
 
-/// Every line of an outline starts and ends in its body's box, and together they are nearly as wide as it: arcs are
-/// drawn by chords.
+/// Every line of an outline starts and ends in its body's AABB, and together they are nearly as wide: arcs are drawn as
+/// chords.
 #[test]
 fn outlines_are_as_wide_as_their_boxes() {
     let mut random = Random::new(900);
@@ -41,14 +41,14 @@ fn outlines_are_as_wide_as_their_boxes() {
                 assert_eq!(what, DebugLine::Body);
                 (low, high) = (low.min(from).min(to), high.max(from).max(to));
             });
-            // Boxes are f32, rounded outwards where they stand; a flat hull may be a point.
+            // AABBs are f32, rounded outwards at their position; a flat hull may be a point.
             let slack = 1e-5 * (high - low).length() + 1e-6 * pose.position().length();
             assert!(
                 low.cmpge(bounds.min.as_dvec3() - slack).all()
                     && high.cmple(bounds.max.as_dvec3() + slack).all(),
                 "{name}"
             );
-            // Chords of a thirty-second of a circle; and of a round corner only the arcs over its edges are drawn,
+            // Chords of a thirty-second of a circle; and for a rounded corner only the arcs along its edges are drawn,
             // not the cap.
             let missing = (bounds.max - bounds.min).as_dvec3() - (high - low);
             let caps = if matches!(*name, "sphere" | "capsule") { 0.6 } else { 2.0 } * radius;
@@ -128,7 +128,7 @@ fn crosses_and_normals_stand_where_bodies_touch() {
     assert!(crosses > 50 && crosses == 2 * normals, "{crosses} arms, {normals} normals");
 }
 
-/// Every box that stands in a column's drawn bounds is counted in it, and nothing further than a rounding away.
+/// Every box inside a column's drawn bounds is counted in it, and nothing further than a rounding away.
 #[test]
 fn columns_are_drawn_where_their_boxes_are() {
     let mut random = Random::new(902);
@@ -150,7 +150,7 @@ fn columns_are_drawn_where_their_boxes_are() {
         _ => {}
     });
     assert!(boxes == 12 * 600 && columns.len() > 12 && columns.len().is_multiple_of(12), "{}", columns.len());
-    // One axis is swept: all columns reach along it from end to end, and so far that nearly all boxes are inside.
+    // One axis is swept: all columns extend along it from end to end, and so far that nearly all boxes are inside.
     let all = columns.iter().flat_map(|&(from, to)| [from, to]);
     let (low, high) =
         all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), end| (low.min(end), high.max(end)));

@@ -1,4 +1,4 @@
-//! Yes or no against exact arithmetic: apart, touching, and a rounding away from either.
+//! Overlap decisions against exact arithmetic: apart, touching, and one rounding from either.
 
 use asunder_geometry::{Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_tests::answers::{Asked, Asked2, Asked3};
@@ -10,7 +10,7 @@ fn agrees(asked: &impl Asked) -> bool {
     asked.overlaps() == asked.exactly_overlaps()
 }
 
-/// All answers must go with the decision, also where no number shows it.
+/// Asserts that all answers agree with the overlap decision, even where no number shows it.
 fn check_consistent(asked: &impl Asked) {
     let overlaps = asked.overlaps();
     let separation = asked.separation(f32::INFINITY).unwrap().separation;
@@ -19,7 +19,7 @@ fn check_consistent(asked: &impl Asked) {
     assert_eq!(asked.manifold(0.0).is_some(), overlaps, "{asked:?}");
 }
 
-/// Returns whether exact arithmetic calls it an overlap.
+/// Returns whether they overlap by exact arithmetic.
 fn check(asked: &impl Asked) -> bool {
     check_consistent(asked);
     assert!(agrees(asked), "exact arithmetic disagrees: {asked:?}");
@@ -51,18 +51,18 @@ fn random_pairs() {
     assert!((300..900).contains(&overlaps), "{overlaps} of 1200 polygons overlap");
 }
 
-/// One of the rotations that take the lattice to itself, by a quaternion of small integers.
+/// A random rotation that maps the lattice to itself, as a quaternion of small integers.
 fn lattice_rotation(random: &mut Random) -> Quat {
     loop {
         let q = [0; 4].map(|_| random.below(3) as f32 - 1.0);
-        // 1, 2 and 4 ones give quarter turns, half turns and thirds; three ones do not keep the lattice.
+        // With 1, 2 and 4 nonzero entries: quarter, half and third turns. Three do not preserve the lattice.
         if [1.0, 2.0, 4.0].contains(&q.iter().map(|c| c * c).sum::<f32>()) {
             return Quat::from_array(q);
         }
     }
 }
 
-/// The same pair with hulls for cuboids.
+/// The same pair with hulls in place of cuboids.
 fn as_hulls(case: &Case3) -> Case3 {
     let hull = |shape: &Shape3| -> Shape3 {
         let Shape3::Cuboid(cuboid) = shape else { unreachable!("made of cuboids") };
@@ -71,7 +71,7 @@ fn as_hulls(case: &Case3) -> Case3 {
     Case3 { shape_a: hull(&case.shape_a), shape_b: hull(&case.shape_b), ..case.clone() }
 }
 
-/// Boxes of lattice size and place: faces, edges and corners meet exactly in a good share of them.
+/// Boxes with sizes and positions on a lattice: many of them meet exactly at faces, edges and corners.
 #[test]
 fn boxes_on_a_lattice_are_decided_exactly() {
     let mut random = Random::new(203);
@@ -86,7 +86,7 @@ fn boxes_on_a_lattice_are_decided_exactly() {
             shape_b: Cuboid::from_half_extents(Vec3::from_array(other)).unwrap().into(),
             pose_b: Pose3::new(DVec3::new(1e6, -2e5, 0.5) + at, lattice_rotation(&mut random)).unwrap(),
         };
-        // Every third pair is of hulls with the same corners: another kernel, and no less exact.
+        // Every third pair uses hulls with the same corners: another kernel, and just as exact.
         let case = if round % 3 == 0 { as_hulls(&case) } else { case };
         let asked = Asked3::new(case);
         check_consistent(&asked);
@@ -128,7 +128,7 @@ fn rectangles_on_a_lattice_are_decided_exactly() {
     assert!(touching > 500, "{touching} touching");
 }
 
-/// Sides that stand askew with small whole numbers for corners: every product of the test fits f64.
+/// Oblique sides with small integer corners: every product of the test is exact in f64.
 #[test]
 fn lattice_polygons_are_decided_exactly() {
     let mut random = Random::new(205);
@@ -155,8 +155,8 @@ fn lattice_polygons_are_decided_exactly() {
     assert!(touching > 100, "{touching} touching");
 }
 
-/// Faces that stand askew, with small whole numbers for corners. A yes or no is asked of axes that are not normalised;
-/// when face normals were, one touching pair in seven was called apart.
+/// Oblique faces with small integer corners. The overlap test uses axes that are not normalised; with normalised face
+/// normals one touching pair in seven was reported apart.
 #[test]
 fn lattice_hulls_are_decided_exactly() {
     let mut random = Random::new(206);
@@ -183,7 +183,7 @@ fn lattice_hulls_are_decided_exactly() {
     assert!(touching > 75, "{touching} touching");
 }
 
-/// One unit in the last place of an f64 position decides, near the origin and as far as a body may be.
+/// One ulp of an f64 position decides, near the origin and as far out as a body may be.
 #[test]
 fn kissing_boxes_touch_and_one_rounding_parts_them() {
     let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());

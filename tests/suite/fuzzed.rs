@@ -1,9 +1,9 @@
-//! The fuzz targets' bodies on seeded bytes: what `fuzz/` explores for hours, a few seconds of it in every run.
+//! The bodies of the fuzz targets on seeded bytes: a few seconds, in every run, of what `fuzz/` explores for hours.
 
 use asunder_tests::cases::Random;
 use asunder_tests::fuzzed;
 
-/// Short and long strings of random bytes, every third of them a mutation of the one before.
+/// Short and long strings of random bytes, every third of them a mutation of the previous one.
 fn strings(seed: u128, count: usize) -> impl Iterator<Item = Vec<u8>> {
     let mut random = Random::new(seed);
     let mut last: Vec<u8> = Vec::new();
@@ -16,7 +16,7 @@ fn strings(seed: u128, count: usize) -> impl Iterator<Item = Vec<u8>> {
         } else {
             let length = 2 + random.below(if number % 2 == 0 { 32 } else { 130 });
             last = (0..length).map(|_| random.below(256) as u8).collect();
-            // Few vertices to keep, so that there is something to leave out.
+            // A small limit on the vertices to keep, so that some are left out.
             last[1] %= 12;
         }
         last.clone()

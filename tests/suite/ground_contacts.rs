@@ -1,5 +1,5 @@
-//! Contacts of bodies on triangle ground: no ghosts while they slide, the normals that edges and corners may give, and
-//! everything else against a loop over all triangles.
+//! Contacts of bodies on triangle ground: no ghost collisions while they slide, which normals edges and corners may
+//! give, and everything else against a loop over all triangles.
 
 mod beyond;
 mod brute;

@@ -1,5 +1,5 @@
-//! Meshes and height fields as a game meets them: stored and loaded, of two million triangles, and under rays that
-//! parry3d casts too. What they say of themselves is held against plain loops in the geometry crate.
+//! Meshes and height fields as a game uses them: stored and loaded, with two million triangles, and under rays that
+//! parry3d casts, too. Their other properties are compared with plain loops in the geometry crate.
 
 use asunder::tolerance::MAX_TRIANGLES;
 use asunder::{
@@ -10,7 +10,7 @@ use asunder_tests::cases::Random;
 use glam::{DVec3, Vec2, Vec3};
 use serde_json::json;
 
-/// Rolling land of so many cells on a side, with some vertices given twice, and some triangles too.
+/// Rolling land of `side` by `side` cells, with some vertices duplicated, and some triangles, too.
 fn land(random: &mut Random, side: u32) -> TriMesh {
     let vertex = |number: u32| {
         let (x, z) = (number % (side + 1), number / (side + 1));
@@ -40,7 +40,7 @@ fn field(random: &mut Random, columns: usize, rows: usize) -> HeightField {
     field.with_holes((0..5).map(|_| (random.below(columns - 1), random.below(rows - 1)))).unwrap()
 }
 
-/// Everything that ground says of itself.
+/// Everything that ground reports about itself.
 fn told(shape: &Shape3) -> String {
     let ground = Ground::of(shape).unwrap();
     let of = |number: u32| {
@@ -111,7 +111,7 @@ fn stored_ground_that_is_none_is_refused_by_what_its_constructor_says() {
 fn a_million_triangles_take_less_than_100_bytes_each() {
     let mesh = land(&mut Random::new(801), 707);
     let count = mesh.triangles().len();
-    // 12 of them for corners in the leaves of the tree, which make rays half as long again as fast.
+    // 12 of them for corners in the leaves of the tree, which make rays half as fast again.
     assert!(count > 1_000_000 && mesh.bytes() < 82 * count, "{} of {count}", mesh.bytes());
     // Nothing shared, as careless exporters write it.
     let corners: Vec<Vec3> =
@@ -119,12 +119,12 @@ fn a_million_triangles_take_less_than_100_bytes_each() {
     let triangles: Vec<[u32; 3]> = (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let soup = TriMesh::new(corners, triangles).unwrap();
     assert!(soup.bytes() < 100 * count, "{} of {count}", soup.bytes());
-    // As many as may be, where the tree holds corners.
+    // The greatest number of vertices for which the tree holds corners.
     let mut spare = mesh.vertices().to_vec();
     spare.resize(2 * count, Vec3::ZERO);
     let spare = TriMesh::new(spare, mesh.triangles()).unwrap();
     assert!(spare.bytes() < 100 * count, "{} of {count}", spare.bytes());
-    // Which triangles are dropped, joined and flat does not depend on how vertices were given.
+    // Which triangles are dropped, joined and coplanar does not depend on how vertices were given.
     assert_eq!(soup.dropped(), mesh.dropped());
     let shapes = [Shape3::from(mesh), Shape3::from(soup)];
     let [Some(one), Some(other)] = [Ground::of(&shapes[0]), Ground::of(&shapes[1])] else { panic!() };
@@ -137,7 +137,7 @@ fn a_million_triangles_take_less_than_100_bytes_each() {
     }
 }
 
-/// As many triangles as a mesh may have, each in a plane of its own: the last is met by its number.
+/// As many triangles as a mesh may have, no two coplanar: the last is hit under its number.
 #[test]
 fn the_last_of_two_million_triangles_is_met_by_its_number() {
     const SIDE: u32 = 1000;
@@ -201,7 +201,7 @@ fn rays_meet_the_triangle_that_parry_says() {
             best
         });
         let Some(wanted) = wanted else { continue };
-        // Closer, where parry's ray slips through an edge in f32.
+        // Nearer, where parry's ray slips through an edge in f32.
         assert!(best <= f64::from(wanted) * (1.0 + 1e-4) + 1e-4, "{best} {wanted}");
         met += usize::from((best - f64::from(wanted)).abs() < 1e-3);
     }

@@ -1,13 +1,13 @@
-//! Questions about ground made of triangles, against a loop over all of them, one by one.
+//! Queries about ground made of triangles, against a loop over all of them, one by one.
 //!
-//! - [`overlaps`]: overlaps, separations and distances; the exact judge; nasty triangles
+//! - [`overlaps`]: overlaps, separations and distances; the exact oracle; degenerate triangles
 //! - [`rays`]: rays, through edges and vertices too
-//! - [`casts`]: what moves and turns; sides; normals over inner edges
-//! - [`onwards`]: what bodies run into next that touch ground already
-//! - [`fronts`]: whether anything is in the way, by fronts
-//! - [`worlds`]: worlds asked about ground, bullets, bad input
+//! - [`casts`]: moving and turning bodies; sides; normals over inner edges
+//! - [`onwards`]: what bodies that already touch ground run into next
+//! - [`fronts`]: overlap with the front of ground
+//! - [`worlds`]: queries of worlds with ground, bullets, bad input
 //! - [`walks`]: characters on ground
-//! - [`peer`]: parry3d's word
+//! - [`peer`]: against parry3d
 
 mod casts;
 mod fronts;
@@ -25,7 +25,7 @@ use asunder_tests::cases::Random;
 /// Vertices and triangles that a mesh is made from.
 pub(crate) type Soup = (Vec<Vec3>, Vec<[u32; 3]>);
 
-/// A grid of two triangles a square, seen from above: heights by place, and which squares are left out.
+/// A grid of squares, two triangles each, facing up: heights by place, and which squares are left out.
 pub(crate) fn sheet(
     [along, across]: [u32; 2],
     step: [f32; 2],
@@ -54,7 +54,7 @@ pub(crate) fn mesh((vertices, triangles): Soup) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
 }
 
-/// Ground with bumps, some of it missing.
+/// Bumpy ground with holes.
 fn bumps(random: &mut Random) -> Soup {
     let (along, across) = (3 + random.below(6) as u32, 3 + random.below(6) as u32);
     let holes = random.below(3);
@@ -67,7 +67,7 @@ fn bumps(random: &mut Random) -> Soup {
     )
 }
 
-/// The same bumps by their heights, with a hole.
+/// Bumps as a height field with a hole.
 fn field(random: &mut Random) -> Shape3 {
     let (columns, rows) = (3 + random.below(7), 3 + random.below(7));
     let heights: Vec<f32> = (0..columns * rows).map(|_| random.between(-0.4, 0.4) as f32).collect();
@@ -75,7 +75,7 @@ fn field(random: &mut Random) -> Shape3 {
     field.with_hole(random.below(columns - 1), random.below(rows - 1)).unwrap().into()
 }
 
-/// Triangles anywhere: of every size, and slivers.
+/// Triangles placed at random: of every size, and slivers.
 fn shards(random: &mut Random) -> Soup {
     let (mut vertices, mut triangles) = (vec![], vec![]);
     for _ in 0..20 + random.below(40) {
@@ -94,7 +94,7 @@ fn shards(random: &mut Random) -> Soup {
     (vertices, triangles)
 }
 
-/// A closed, bent box: thin walls all around.
+/// A closed, distorted box: thin walls all around.
 fn shell(random: &mut Random) -> Soup {
     let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32) * 2.0 - 1.0;
     let vertices = (0..8).map(|i| corner(i) * 1.5 + random.vector().as_vec3() * 0.3).collect();
@@ -103,7 +103,7 @@ fn shell(random: &mut Random) -> Soup {
     (vertices, triangles)
 }
 
-/// One of every kind of ground; every other one turned, and one in five far from the origin.
+/// Ground of each kind in turn; every other one rotated, and one in five far from the origin.
 pub(crate) fn level(random: &mut Random, round: usize) -> (Shape3, Pose3) {
     let ground = match round % 6 {
         0 => mesh(bumps(random)),
@@ -119,7 +119,7 @@ pub(crate) fn level(random: &mut Random, round: usize) -> (Shape3, Pose3) {
     (ground, pose)
 }
 
-/// Every triangle of ground with its number, as a shape in the same place.
+/// All triangles of ground with their numbers, as shapes in the ground's axes.
 pub(crate) fn triangles(ground: &Shape3) -> Vec<(u32, Shape3)> {
     let ground = Ground::of(ground).unwrap();
     (0..ground.triangle_count())
@@ -127,7 +127,7 @@ pub(crate) fn triangles(ground: &Shape3) -> Vec<(u32, Shape3)> {
         .collect()
 }
 
-/// A place near ground: on or beside one of its triangles.
+/// A point near ground: on or beside one of its triangles.
 pub(crate) fn beside(random: &mut Random, ground: (&Shape3, &Pose3), away: f64) -> DVec3 {
     let ground_of = Ground::of(ground.0).unwrap();
     let corners = loop {

@@ -6,7 +6,7 @@ use asunder::{
     Shape3, Snapshot, Sphere, TriMesh, World3,
 };
 
-/// A floor of so many cells of a metre each way, its middle at the origin, cut along lines that are not straight.
+/// A floor of `cells` by `cells` cells of a metre, centred on the origin, cut along lines that are not straight.
 fn floor(cells: u32) -> TriMesh {
     let row = cells + 1;
     let place = |i: u32| f64::from(i) - f64::from(cells) / 2.0;
@@ -30,7 +30,7 @@ fn field(cells: usize) -> HeightField {
     HeightField::new(cells + 1, cells + 1, vec![0.0; (cells + 1) * (cells + 1)], Vec2::ONE).unwrap()
 }
 
-/// Bodies that stand on a plane, and how high above it their positions are then.
+/// Bodies that stand on a plane, and the heights of their positions above it.
 fn bodies() -> Vec<(&'static str, Shape3, f64)> {
     let corners: Vec<Vec3> = (0..8)
         .map(|i| Vec3::new([-0.4, 0.4][i & 1], [-0.25, 0.25][i >> 1 & 1], [-0.3, 0.3][i >> 2]))
@@ -168,7 +168,7 @@ fn every_edge_of_ground_is_drawn_once() {
         let mut lines = Vec::new();
         let options = DebugOptions { shapes: true, ..DebugOptions::default() };
         world.debug_lines(&options, &mut |from, to, _| lines.push((from, to)));
-        // Three for each triangle; those within are shared by two, those of the rim are not.
+        // Three for each triangle; inner ones are shared by two triangles, those of the rim are not.
         assert_eq!(lines.len(), (3 * triangles + 24) / 2);
         assert!(lines.iter().all(|(from, to)| from.y == 0.0 && to.y == 0.0 && (*to - *from).length() < 2.0));
     }

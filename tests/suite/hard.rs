@@ -1,6 +1,6 @@
 //! Never wrong: every promise on 100,000 hard cases of all families, against exact arithmetic and double-double.
 //!
-//! One run serves all tests here. `cargo run --release -p asunder-tests --bin hard` asks ten times as many, and
+//! One run serves all tests here. `cargo run --release -p asunder-tests --bin hard` runs ten times as many, and
 //! parry3d. A failure names the family, how many of its cases fail, and level and seed of the first, so that
 //! `Family3::by_name(NAME).pair(LEVEL, SEED)` is the case.
 
@@ -9,13 +9,13 @@ use asunder_tests::report::{FaultKind, Row, Scope, Tally, Times, header, shares,
 use rayon::prelude::*;
 use std::sync::OnceLock;
 
-/// Cases in all.
+/// Total number of cases.
 const CASES: usize = 100_000;
 
-/// Separations are judged on every so many-th case of each level: they take the judges the longest.
+/// Separations are judged on every k-th case of each level, since they take the oracles longest; this is k.
 const TRUTH_EVERY: usize = 10;
 
-/// Every family's tally, made by whichever test comes first, on all processors: the other tests here wait for it.
+/// Every family's tally, made on all processors by whichever test comes first: the other tests here wait for it.
 fn tallies() -> &'static [Tally] {
     static TALLIES: OnceLock<Vec<Tally>> = OnceLock::new();
     TALLIES.get_or_init(|| {
@@ -34,7 +34,7 @@ fn tallies() -> &'static [Tally] {
     })
 }
 
-/// Fails with every family that broke a promise.
+/// Fails with the list of families that broke a promise.
 fn assert_kept(kind: FaultKind) {
     let complaints: Vec<String> = tallies().iter().filter_map(|tally| tally.complaint(kind)).collect();
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
@@ -45,13 +45,13 @@ fn a_hundred_thousand_cases_of_all_families_are_judged() {
     let tallies = tallies();
     let sum = |count: fn(&Tally) -> usize| tallies.iter().map(count).sum::<usize>();
     assert!(sum(|tally| tally.cases) >= CASES);
-    // The largest hulls are few, and still on every level.
+    // The largest hulls are few, and yet occur on every level.
     let levels =
         FAMILIES3.iter().map(|family| family.levels).chain(FAMILIES2.iter().map(|family| family.levels));
     for (tally, levels) in tallies.iter().zip(levels) {
         assert!(tally.cases >= 4 * levels as usize && tally.measured >= levels as usize, "{tally:?}");
     }
-    // Both answers, and cases that only touch, or zeros would say little.
+    // Both answers, and cases that only touch, must be frequent, or zeros would mean little.
     let overlapping = sum(|tally| tally.overlapping);
     assert!(overlapping > CASES / 5 && overlapping < 4 * CASES / 5, "{overlapping} overlap");
     assert!(sum(|tally| tally.touching) > CASES / 50);

@@ -1,7 +1,6 @@
-//! Hints over sixty frames: a batch that remembers says what one without memory says, and so does one that remembers
-//! something else.
+//! Hints over sixty frames: a batch with hints gives the same answers as one without, and so does one with wrong hints.
 //!
-//! Yes or no is the same bit. A separation may come from another axis, and is right within its own error all the same.
+//! Overlap is the same bit. A separation may come from another axis, and is still within its own error.
 
 use asunder_geometry::{
     Capsule2, Compound2, Compound3, Cuboid, Hull, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3, Sphere,
@@ -14,7 +13,7 @@ use asunder_scenes::random::Random;
 use asunder_tests::precise::{separation2, separation3};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// What an answer says, beside its hint.
+/// The content of an answer, and its hint.
 #[derive(Clone, Debug)]
 struct Fact {
     hint: Hint,
@@ -33,7 +32,7 @@ impl Fact {
                 Self { hint: *hint, contact: None, measured: None, deepest: f64::INFINITY }
             }
             Answer::Contact { hint, overlapping, manifolds: range } => {
-                // Of compounds, the pair of parts that is the deepest.
+                // For compounds, the deepest pair of parts.
                 let of_parts =
                     manifolds.get(range.start as usize..range.end as usize).unwrap().iter().map(read);
                 let found = of_parts.min_by(|one, other| one.0.total_cmp(&other.0));
@@ -50,9 +49,9 @@ impl Fact {
 
 /// A pair in space or in the plane.
 trait Pair: Clone {
-    /// Answers to many, each with its hint; sensors have no manifolds.
+    /// Answers to many pairs, each with its hint; sensors have no manifolds.
     fn collide(pairs: &[Self], hints: &[Hint], margin: f32, sensor: bool) -> Vec<Fact>;
-    /// The separation and what the judge may have wrong.
+    /// The true separation and the oracle's error.
     fn truth(&self) -> (f64, f64);
     /// The sum of both bounding radii.
     fn size(&self) -> f64;
@@ -126,11 +125,11 @@ impl Pair for PosedPair2 {
     }
 }
 
-/// What a steady choice of the reference may cost the deepest point, as a share of the size: twice 2e-6 of the smaller
-/// radius.
+/// How much a stable choice of the reference face may cost the deepest point, as a share of the size: twice 2e-6 of the
+/// smaller radius.
 const STEADY: f64 = 2e-6;
 
-/// One answer held against another to the same question.
+/// Compares two answers to the same question.
 fn check_alike<P: Pair>(fresh: &Fact, other: &Fact, (pair, margin): (&P, f64), story: &str) {
     let whole = || format!("{story}, margin {margin}: {fresh:?}, {other:?}");
     assert_eq!(
@@ -145,7 +144,7 @@ fn check_alike<P: Pair>(fresh: &Fact, other: &Fact, (pair, margin): (&P, f64), s
             let slack = error + other_error + STEADY * pair.size();
             assert!((fresh.deepest - other.deepest).abs() <= slack, "the deepest point: {}", whole());
         }
-        // Within the error of the margin, rounding decides.
+        // Within the error of the margin either is allowed.
         (Some((one, error)), None) | (None, Some((one, error))) => {
             assert!(margin > 0.0 && (one - margin).abs() <= error, "a contact or none: {}", whole());
         }
@@ -168,8 +167,8 @@ fn check_true<P: Pair>(fact: &Fact, pair: &P, margin: f64, story: &str) {
     }
 }
 
-/// Three batches over all frames: without memory, with its own, and with what another pair left, also of another
-/// family. Every `judge_every`-th answer is held against the truth. Returns how many answers gave a hint.
+/// Three batches over all frames: without hints, with their own, and with those of another pair, also of another
+/// family. Every `judge_every`-th answer is compared with the truth. Returns how many answers gave a hint.
 fn run<P: Pair>(frames: &[Vec<P>], foreign: &[Hint], judge_every: usize, story: &str) -> usize {
     let width = frames[0].len();
     let size = frames[0].iter().map(Pair::size).fold(f64::INFINITY, f64::min);
@@ -200,7 +199,7 @@ fn run<P: Pair>(frames: &[Vec<P>], foreign: &[Hint], judge_every: usize, story: 
             }
             own = known.iter().map(|fact| fact.hint).collect();
             hinted += own.iter().filter(|&&hint| hint != Hint::NONE).count();
-            // From the pair beside it, or from another family altogether.
+            // From a neighbouring pair, or from another family altogether.
             let other = |i: usize| match foreign.get((number + i) % (2 * foreign.len()).max(1)) {
                 Some(&hint) => hint,
                 None => own[(i + 1 + number % 3) % width],
@@ -211,7 +210,8 @@ fn run<P: Pair>(frames: &[Vec<P>], foreign: &[Hint], judge_every: usize, story: 
     hinted
 }
 
-/// Sixty frames of pairs that rest, each frame moved a little: by nothing, by a rounding, by a thousandth of its depth.
+/// Sixty frames of resting pairs that move slightly each frame: not at all, by a rounding, by a thousandth of the
+/// depth.
 fn resting<P: Pair>(pairs: &[P]) -> Vec<Vec<P>> {
     let mut random = Random::new(31);
     let nudge = |random: &mut Random, frame: usize| random.direction() * [0.0, 1e-15, 1e-7, 1e-5][frame % 4];
@@ -230,7 +230,7 @@ fn frames_of<P: Pair>(set: PairSet, pairs: &[P]) -> Vec<Vec<P>> {
 
 const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Slide, PairSet::Tumble, PairSet::Touch];
 
-/// What pairs of some size leave behind.
+/// The hints of some pairs.
 fn hints_of<P: Pair>(pairs: &[P]) -> Vec<Hint> {
     P::collide(pairs, &vec![Hint::NONE; pairs.len()], 0.0, false).iter().map(|fact| fact.hint).collect()
 }
@@ -239,7 +239,7 @@ fn hints_of<P: Pair>(pairs: &[P]) -> Vec<Hint> {
 fn solids() {
     let foreign = hints_of(&pairs3(SolidKind::Hull32, PairSet::Mixed, 7, 9));
     for kind in SolidKind::ALL {
-        // How many pairs, and which answers are judged: as many as a second or two has room for.
+        // How many pairs there are, and which answers are judged: as many as a second or two has time for.
         let (tracks, judge_every) = match kind {
             SolidKind::Box | SolidKind::Authored | SolidKind::Hull8 => (20, 17),
             SolidKind::Hull16 => (10, 17),
@@ -309,11 +309,10 @@ fn hammer2(random: &mut Random, parts: usize) -> Shape2 {
     Compound2::new(all).unwrap().into()
 }
 
-/// How deep pairs of compounds begin: deep, resting, within the margin, apart.
+/// Initial depths of pairs of compounds: deep, resting, within the margin, apart.
 const DEPTHS: [f64; 5] = [0.05, 1e-3, -1e-2, -0.1, -0.4];
 
-/// Sixty frames of hammers, and of a hammer against one shape, that turn past each other, each a little further
-/// each frame.
+/// Sixty frames of hammers against hammers or single shapes that turn past each other, a little further each frame.
 fn hammers3(random: &mut Random) -> Vec<Vec<PosedPair3>> {
     let mut tracks = Vec::new();
     for (i, &depth) in (0..20).zip(DEPTHS.iter().cycle()) {
@@ -373,12 +372,12 @@ fn hammers2(random: &mut Random) -> Vec<Vec<PosedPair2>> {
 fn compounds() {
     let mut random = Random::new(41);
     let frames = hammers3(&mut random);
-    // Of others of their own kind; of hulls, whose features are none of theirs; and of the plane.
+    // Hints of other hammers; of hulls, which have other features; and of the plane.
     let own = run(&frames, &[], 31, "hammers");
     assert!(own >= frames.len() * frames[0].len(), "{own} hints");
     run(&frames, &hints_of(&pairs3(SolidKind::Hull32, PairSet::Mixed, 40, 9)), 31, "hammers, hints of hulls");
     run(&frames, &hints_of(&hammers2(&mut random)[0]), 31, "hammers, hints of the plane");
-    // Parts that are not there, of shapes that have none.
+    // Hints that name parts that do not exist, for shapes without parts.
     let hulls = resting(&pairs3(SolidKind::Hull16, PairSet::Touch, 10, 21));
     run(&hulls, &hints_of(&frames[0]), 31, "hulls, hints of hammers");
     let few: Vec<Vec<_>> = frames.iter().map(|pairs| vec![pairs[0].clone(), pairs[14].clone()]).collect();

@@ -1,4 +1,4 @@
-//! Hulls of points: the same as parry3d's, and as near as they say.
+//! Hulls of points: the same as parry3d's, and within their stated errors.
 
 use asunder_geometry::{Hull, Pose3, Shape3};
 use asunder_narrow::Pair3;

@@ -1,5 +1,5 @@
-//! The index of resting boxes against a loop over all of them: overlaps here; rays, moved boxes and what is nearest
-//! in `reach`.
+//! The index of resting boxes against a loop over all of them: overlaps here; rays, moving boxes and nearest boxes in
+//! `reach`.
 
 mod reach;
 
@@ -22,7 +22,7 @@ fn share<B: Sides>(one: &B, other: &B) -> bool {
         .all(|(p, q)| is_interval(p) && is_interval(q) && p.0.max(q.0) <= p.1.min(q.1))
 }
 
-/// Same boxes as the loop, as a list and to a visitor; returns how many.
+/// Asserts that list and visitor give the same boxes as the loop; returns how many.
 fn check_overlaps<B: Bounds + Sides>(
     index: &Index<B>,
     boxes: &[B],
@@ -53,7 +53,7 @@ fn two_of_three(number: u32) -> bool {
     !number.is_multiple_of(3)
 }
 
-/// Every third of the boxes themselves, grown and not, asked of an index of all and of one that leaves some out.
+/// Queries an index of all boxes and one that leaves some out, with every third query box, grown and not.
 fn check_all<B: Bounds + Sides>(boxes: &[B], asked: &[B]) -> usize {
     let mut index = Index::new();
     let mut found = 0;
@@ -106,9 +106,9 @@ fn overlaps_in_every_scene() {
     assert!(found > 1000, "{found}");
 }
 
-/// Sixty boxes with nasty corners, every fourth inverted if it came so.
+/// Sixty boxes with nasty coordinates; every fourth may be inverted.
 fn nasty_boxes(random: &mut Random, round: usize) -> Vec<Aabb3> {
-    // NaN in every tenth round only, or few boxes would be left that are boxes.
+    // NaN in every tenth round only, or few valid boxes would be left.
     let skip = usize::from(!round.is_multiple_of(10));
     let mut corner = || Vec3::from_array([0; 3].map(|_| NASTY[skip + random.below(NASTY.len() - skip)]));
     let corners = (0..60).map(|i| (i, corner(), corner()));
@@ -130,7 +130,7 @@ fn overlaps_of_nasty_boxes() {
     assert!(found > 100_000, "{found} overlaps");
 }
 
-/// Boxes in ever smaller clusters, identical ones, and giants among them: nothing that keys could tell apart at once.
+/// Boxes in ever smaller clusters, identical ones, and giants among them: nothing that sort keys can separate at once.
 fn clusters(random: &mut Random) -> Vec<Aabb3> {
     let mut boxes = Vec::new();
     for scale in [1e9_f32, 1.0, 1e-9, 1e-18, 1e-27, 1e-36] {
@@ -148,8 +148,8 @@ fn overlaps_in_clusters_in_clusters() {
     assert!(found > 100_000, "{found} overlaps");
 }
 
-/// Nine boxes at each power of two, on both sides of zero: whoever halves the room takes off one power at a time,
-/// and goes deep.
+/// Nine boxes at each power of two, on both sides of zero: halving the room splits off one power at a time, and makes a
+/// deep tree.
 #[test]
 fn overlaps_of_boxes_that_halve_the_way() {
     let powers = (1..255).map(|exponent| f32::from_bits(exponent << 23)).flat_map(|power| [power, -power]);
@@ -157,7 +157,7 @@ fn overlaps_of_boxes_that_halve_the_way() {
         powers.flat_map(|power| [Aabb3::new(Vec3::splat(power), Vec3::splat(power)); 9]).collect();
     let all = Aabb3::new(Vec3::NEG_INFINITY, Vec3::INFINITY);
     let asked: Vec<Aabb3> = boxes.iter().step_by(9).copied().chain([all]).collect();
-    // Nine of nine and six of nine at every place, and all of both.
+    // Nine of nine and six of nine at every place; the box around everything finds as many again.
     assert_eq!(check_all(&boxes, &asked), 508 * (9 + 6) * 2);
 }
 

@@ -1,5 +1,5 @@
-//! What must not matter: which shape is called A, where the origin is, how long a quaternion is, units of length,
-//! what the last frame left as a hint, and what else is in a batch.
+//! What must not matter: which shape is called A, where the origin is, the length of a quaternion, units of length,
+//! hints of the last frame, and the rest of the batch.
 
 mod units;
 
@@ -87,7 +87,7 @@ fn where_the_origin_is() {
     }
 }
 
-/// Off the grid a position far out is rounded; the answer must be right for the rounded place.
+/// Off the grid a position far out is rounded; the answer must be right for the rounded position.
 #[test]
 fn far_from_the_origin_answers_are_as_good() {
     let mut random = Random::new(502);
@@ -105,7 +105,8 @@ fn far_from_the_origin_answers_are_as_good() {
     }
 }
 
-/// Turning and moving both bodies alike changes the answer by what the rounded quaternions turn them apart.
+/// Rotating and moving both bodies alike changes the answer only by the relative rotation that rounded quaternions
+/// cause.
 #[test]
 fn a_rigid_motion_of_both() {
     let mut random = Random::new(503);
@@ -121,7 +122,7 @@ fn a_rigid_motion_of_both() {
             Asked3::new(Case3 { pose_a: moved(&case.pose_a), pose_b: moved(&case.pose_b), ..case.clone() });
         let here = Asked3::new(case);
         let (one, other) = [&here, &there].map(|asked| asked.separation(f32::INFINITY).unwrap()).into();
-        // A product of f32 quaternions is off by 2e-7 or so, which turns each shape's reach by twice that.
+        // A product of f32 quaternions is off by about 2e-7, which moves points at each shape's reach by twice that.
         let slack = 2e-6 * here.size() + one.error + other.error;
         assert!((one.separation - other.separation).abs() <= slack, "{one:?}, moved {other:?}: {here:?}");
     }
@@ -139,7 +140,7 @@ fn how_long_a_quaternion_is() {
             };
             Case3 { pose_a: longer(&case.pose_a), pose_b: longer(&case.pose_b), ..case.clone() }
         };
-        // Powers of two keep every bit; and q and -q are one rotation.
+        // Scaling by powers of two keeps every bit; and q and -q are one rotation.
         for factor in [4.0, 0.125, -1.0] {
             let other = stretched(factor);
             assert_eq!(
@@ -152,7 +153,7 @@ fn how_long_a_quaternion_is() {
     }
 }
 
-/// A scene of pebbles and a scene of mountains: in powers of two every bit of the answer follows.
+/// A scene of pebbles and a scene of mountains: scaled by powers of two, every bit of the answer follows.
 #[test]
 fn units_of_length() {
     let mut random = Random::new(505);
@@ -201,7 +202,7 @@ fn hint_of(answer: &Answer) -> Hint {
     }
 }
 
-/// All of an answer that is not the hint: whether there is a contact, whether it overlaps, and its manifolds.
+/// An answer without its hint: whether there is a contact, whether it overlaps, and its manifolds.
 fn facts<M: Clone>(answer: &Answer, manifolds: &[M]) -> Option<(bool, Vec<M>)> {
     match answer {
         Answer::Apart { .. } => None,
@@ -211,8 +212,8 @@ fn facts<M: Clone>(answer: &Answer, manifolds: &[M]) -> Option<(bool, Vec<M>)> {
     }
 }
 
-/// A wrong hint may choose among features that are equally good up to rounding, and where a search begins: it says
-/// the same of the overlap, and numbers whose errors make room for each other.
+/// A wrong hint may choose among features that are equally good up to rounding, and where a search begins. It must not
+/// change the overlap decision, nor numbers beyond their errors.
 fn assert_no_other_answer(
     one: &Option<(bool, Vec<Manifold3>)>,
     other: &Option<(bool, Vec<Manifold3>)>,
@@ -302,7 +303,7 @@ fn hints_and_neighbours_in_a_batch_in_the_plane() {
     for (i, (case, margin)) in cases.iter().enumerate() {
         let fact = facts(&first.answers[i], &first.manifolds);
         assert_eq!(fact, facts(&hinted.answers[i], &hinted.manifolds), "its own hint: {case:?}");
-        // Among edges that are as good, up to two preferences, the hinted one is kept; the numbers are the same.
+        // Among edges that are equally good, up to two preferences, the hinted one is kept; the numbers are the same.
         let numbers = |fact: Option<(bool, Vec<Manifold2>)>| {
             fact.map(|(overlapping, m)| {
                 (overlapping, m.iter().map(|m| (m.separation, m.error)).collect::<Vec<_>>())

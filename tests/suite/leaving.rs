@@ -1,4 +1,4 @@
-//! What a cast has brought to another may leave again, and what it meets it meets from the front.
+//! A shape that a cast has brought to another may leave again, and whatever a cast hits is hit from the front.
 
 use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
@@ -7,7 +7,7 @@ use asunder::{
 };
 use asunder_tests::cases::Random;
 
-/// From near home to so far that positions round to a hundred thousandth of a millimetre.
+/// From near the origin to so far out that positions are rounded to a hundred thousandth of a millimetre.
 const PLACES: [f64; 5] = [0.0, 1.0, 100.0, 1e5, 1e8];
 
 fn flat(random: &mut Random) -> Shape2 {
@@ -42,7 +42,7 @@ fn what_a_cast_brought_there_may_leave() {
             let there = from.shifted(way * hit.fraction).unwrap();
             let pair = Pair2::new(&a, &there, &b, &to);
             met[0] += 1;
-            // Rounding of the position alone may have them touch.
+            // They may touch by the rounding of the position alone.
             if !pair.overlaps() {
                 let normal = hit.normal.as_dvec2();
                 let away = -normal + normal.perp() * random.between(-1.0, 1.0);
@@ -112,7 +112,7 @@ fn who_hovers_by_a_hair_and_rises_meets_nothing_though_it_turns() {
 
 #[test]
 fn what_parts_slowly_while_it_turns_is_told_near_or_not_at_all() {
-    // Balls beside long planks that turn: a twentieth more of the gap is all that a fixed axis shows a step later.
+    // Balls beside long planks that turn: one step later, a fixed axis shows a gap only a twentieth wider.
     let (mut told, mut free) = (0, 0);
     for seed in 0..3000 {
         let mut random = Random::new(seed);
@@ -155,8 +155,8 @@ fn what_parts_slowly_while_it_turns_is_told_near_or_not_at_all() {
     assert!(told > 1500 && free > 1500, "{told} {free}");
 }
 
-/// Fails unless an impact, a share of a motion and its error, is where two bodies all but touch, of which it is known
-/// how far they are apart at each share; and they are apart until then.
+/// Asserts that the bodies almost touch at the reported impact (a fraction and an error), and are apart until then;
+/// `apart` gives their distance at a fraction.
 fn check_told(seed: u128, told: Option<(f64, f32)>, apart: impl Fn(f64) -> f32) {
     if let Some((fraction, error)) = told {
         assert!(
@@ -182,7 +182,7 @@ fn what_falls_about_in_a_cave_meets_its_walls_from_the_front_and_comes_to_rest()
             let turn = Rotation2::from_angle((core::f64::consts::TAU * corner as f64 / count as f64) as f32);
             (turn.unwrap().turn(DVec2::X) * random.between(6.0, 10.0)).as_vec2()
         });
-        // From right to left over its floor: the front of one with one side looks in.
+        // From right to left over its floor: the front of a one-sided chain faces inwards.
         let mut corners: Vec<Vec2> = corners.collect();
         let is_one_sided = seed % 2 == 1;
         if is_one_sided {
@@ -226,7 +226,7 @@ fn what_falls_about_in_a_cave_meets_its_walls_from_the_front_and_comes_to_rest()
 
 #[test]
 fn a_cast_that_grazes_a_wall_it_left_goes_on_to_the_next() {
-    // Two walls face each other: bounced between them for a hundred times, nothing sticks.
+    // Two walls that face each other: a ball bounces between them a hundred times without sticking.
     let wall = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.5, 9.0, 9.0)).unwrap());
     let ball = Shape3::from(Sphere::new(0.25).unwrap());
     for far in [0.0, 123.456, 98_765.432] {

@@ -1,4 +1,4 @@
-//! Manifolds: points on both shapes, on one normal, that tell the same separation as the pair; and their names.
+//! Manifolds: points on both shapes, on one normal, with the pair's separation; and their feature ids.
 
 mod faces;
 mod frames;
@@ -13,11 +13,11 @@ use asunder_tests::cases::{Case2, Case3, Random, prism};
 use glam::{DVec2, Quat, Vec2, Vec3};
 use std::collections::BTreeSet;
 
-/// A point lies on its shape up to this share of the pair's size: faces count as flat within a few 2.5e-7, a face
-/// is preferred to another axis within 5e-7, and anchors are f32.
+/// A point may be off its shape by this share of the pair's size: faces count as flat within a few 2.5e-7, a face is
+/// preferred to another axis within 5e-7, and anchors are f32.
 const ON_SHAPE: f64 = 2e-6;
 
-/// Every claim about a manifold; `margin` is the one it was asked for with.
+/// Checks everything about a manifold that was requested with `margin`.
 fn check_manifold(asked: &impl Asked, manifold: &Manifold, margin: f64) {
     let size = asked.size();
     let truth = asked.true_separation();
@@ -45,14 +45,14 @@ fn check_manifold(asked: &impl Asked, manifold: &Manifold, margin: f64) {
         assert!(contact.separation <= margin.max(0.0) + slack, "beyond {margin}: {contact:?} of {asked:?}");
     }
     let least = contacts.iter().map(|contact| contact.separation).fold(f64::INFINITY, f64::min);
-    // Four of more corners hold one that is as deep as any up to what counts as even, of the smaller shape's diameter:
-    // which is no more than the pair's size.
+    // Four points chosen from more corners include one that counts as deepest, within a share of the smaller shape's
+    // diameter, which is at most the pair's size.
     let even = if contacts.len() == 4 { EVEN_DEPTH * size } else { 0.0 };
     let beyond = least - measured.separation;
     assert!((-slack..=slack + even).contains(&beyond), "deepest {least}, {measured:?}: {asked:?}");
 }
 
-/// Asks without a margin and with one; returns the number of points without.
+/// Checks the manifolds without a margin and with one; returns the number of points without.
 fn check(asked: &impl Asked, margin_share: f64) -> usize {
     let (size, truth) = (asked.size(), asked.true_separation());
     let touching = asked.manifold(0.0);
@@ -66,7 +66,7 @@ fn check(asked: &impl Asked, margin_share: f64) -> usize {
     }
     let margin = (margin_share * size) as f32;
     let near = asked.manifold(margin);
-    // Within the reported error of the margin, rounding decides.
+    // Within the reported error of the margin either answer is allowed.
     if (truth - f64::from(margin)).abs() > 4e-6 * size {
         assert_eq!(near.is_some(), truth < f64::from(margin), "margin {margin}, true {truth}: {asked:?}");
     }
@@ -145,7 +145,7 @@ fn a_resting_box_stands_on_four_points_whose_names_stay() {
         let at = random.vector().truncate() * 40.0;
         let turn = random.direction2().as_vec2();
         let upright = Quat::from_xyzw(0.0, turn.y, 0.0, turn.x);
-        // Sunk a little deeper than the motion below, as bodies rest in a game.
+        // Sunk in a little deeper than the motion below, as bodies rest in a game.
         let rest = resting(&crate_, 0.499, at, upright).manifold(0.0).unwrap();
         assert_eq!(rest.contacts.len(), 4);
         for _ in 0..20 {
@@ -181,7 +181,7 @@ fn a_resting_rectangle_stands_on_two_points_whose_names_stay() {
     }
 }
 
-/// A box that hangs over another's edge stands on the rectangle that both share, sunk or a little above it.
+/// A box that hangs over another's edge stands on the rectangle that the two share, sunk in or slightly above it.
 #[test]
 fn an_overhanging_box_stands_on_what_both_share() {
     let mut random = Random::new(306);
@@ -230,8 +230,8 @@ fn an_overhanging_rectangle_stands_on_what_both_share() {
     }
 }
 
-/// A post of seven sides on a floor touches at seven corners; the four that are kept hold it as well, the deepest
-/// among them. Seven, because in an eight the corner opposite the shallowest would always be the deepest.
+/// A post of seven sides on a floor touches it with seven corners. The four that are kept span most of their area, and
+/// include the deepest. Seven, because with eight the corner opposite the shallowest would always be the deepest.
 #[test]
 fn four_of_seven_points_hold_a_post() {
     let outline = [(2, 1), (1, 2), (-1, 2), (-2, 1), (-2, -1), (-1, -2), (1, -2)];
@@ -246,7 +246,7 @@ fn four_of_seven_points_hold_a_post() {
         let tilt = (random.vector() * 5e-3).as_vec3();
         let turn = random.direction2().as_vec2();
         let rotation = Quat::from_xyzw(tilt.x, turn.y, tilt.z, turn.x);
-        // Sunk by 0.02, and tilted by no more than 0.015 over half a metre: all seven corners are below the floor.
+        // Sunk in by 0.02, and tilted by no more than 0.015 over half a metre: all seven corners are below the floor.
         let asked = resting(&post, 0.98, random.vector().truncate() * 40.0, rotation);
         let manifold = asked.manifold(0.0).unwrap();
         check_manifold(&asked, &manifold, 0.0);
@@ -256,18 +256,18 @@ fn four_of_seven_points_hold_a_post() {
         let mut corners: Vec<DVec2> =
             found.points.iter().map(|p| DVec2::new(p.anchor_b.x.into(), p.anchor_b.z.into())).collect();
         let middle = corners.iter().sum::<DVec2>() / 4.0;
-        // Around the middle: by half plane, then by slope.
+        // Sorted around the middle: by half plane, then by slope.
         corners.sort_by(|&p, &q| {
             let (p, q) = (p - middle, q - middle);
             (p.y < 0.0).cmp(&(q.y < 0.0)).then(0.0_f64.total_cmp(&p.perp_dot(q)))
         });
         let doubled: f64 = (0..4).map(|i| corners[i].perp_dot(corners[(i + 1) % 4])).sum();
-        // Four of these seven can span 10/13 of the area, and three no more than 6/13.
+        // Four of these seven can span 10/13 of the area, three at most 6/13.
         assert!(doubled / 2.0 > 0.6 * area_of_all, "area {}: {found:?}", doubled / 2.0);
     }
 }
 
-/// Two equal crates, tilted by less than a face is preferred: the normal stays that of A's face, to the last bit.
+/// Two equal crates, tilted by less than the face preference: the normal stays that of A's face, bit for bit.
 #[test]
 fn the_reference_face_does_not_flip_between_ties() {
     let mut random = Random::new(309);
@@ -283,9 +283,9 @@ fn the_reference_face_does_not_flip_between_ties() {
     }
 }
 
-/// Symptom: a single contact point 1.8 m apart in an overlap of 18 micrometres. Cause: a prism's parallel edges share
-/// their cross products, and the first edge that gave the axis was taken for the one that touches. Seen in about
-/// one in seventy of this suite's overlapping pairs.
+/// Symptom: a single contact point whose ends were 1.8 m apart, in an overlap of 18 micrometres. Cause: a prism's
+/// parallel edges have the same cross products, and the first edge that gave the axis was taken for the one that
+/// touches. Seen in about one in seventy of this suite's overlapping pairs.
 #[test]
 fn parallel_edges_share_an_axis_and_one_of_them_touches() {
     let wedge = |outline: [(f32, f32); 3], half: f32| prism(&outline.map(Vec2::from), half);
@@ -314,8 +314,8 @@ fn parallel_edges_share_an_axis_and_one_of_them_touches() {
     assert_eq!(manifold.contacts.len(), 1, "two edges cross in one point: {manifold:?}");
 }
 
-/// Symptom: within a margin, a point of A 0.3 mm beside A. Cause: an axis that shows a share p less than the distance d
-/// leads sqrt(2 d p) sideways, so that preferring a face by a hair is no hair at a distance.
+/// Symptom: within a margin, a point of A 0.3 mm beside A. Cause: at the distance d, an axis whose separation is less
+/// by p is tilted sideways by sqrt(2 d p), so that preferring a face by a hair is no longer a hair.
 #[test]
 fn a_corner_beside_a_side_is_not_above_it() {
     let asked = Asked2::new(Case2 {

@@ -1,4 +1,4 @@
-//! Compounds of many parts, which are looked up in a tree, against the same parts in compounds of few, which are asked
+//! Compounds of many parts, which are looked up in a tree, against the same parts in compounds of few, which are tested
 //! one after the other.
 
 mod plane;
@@ -14,7 +14,7 @@ use asunder_narrow::{
 use asunder_scenes::random::Random;
 use core::ops::ControlFlow;
 
-/// Parts of a compound of few.
+/// Parts of a small compound.
 const FEW: usize = 7;
 
 fn part(random: &mut Random) -> Shape3 {
@@ -37,7 +37,7 @@ fn anywhere(random: &mut Random, reach: f64) -> DVec3 {
     random.within(DVec3::splat(-reach), DVec3::splat(reach))
 }
 
-/// A body of so many parts, in a room so wide.
+/// `count` parts at random poses within `reach`.
 fn parts(random: &mut Random, count: usize, reach: f64) -> Vec<(Pose3, Shape3)> {
     let mut place = || {
         let rotation = if random.below(3) == 0 { Quat::IDENTITY } else { random.rotation() };
@@ -46,7 +46,7 @@ fn parts(random: &mut Random, count: usize, reach: f64) -> Vec<(Pose3, Shape3)> 
     (0..count).map(|_| place()).collect()
 }
 
-/// A body, and the same in pieces, each with the number of its first part.
+/// A body, and the same body in pieces, each with the number of its first part.
 struct Body {
     whole: Shape3,
     pieces: Vec<(u32, Shape3)>,
@@ -63,7 +63,7 @@ fn alone(shape: Shape3, pose: Pose3) -> Body {
     Body { whole: shape.clone(), pieces: vec![(0, shape)], pose }
 }
 
-/// Two bodies, of which the first has many parts, in any order.
+/// Two bodies in either order, one of which has many parts.
 fn bodies(random: &mut Random) -> [Body; 2] {
     let count = 32 + random.below(60);
     let far = [DVec3::ZERO, DVec3::new(1e5, -3e4, 2e5)][random.below(2)];
@@ -86,7 +86,7 @@ fn bodies(random: &mut Random) -> [Body; 2] {
     if random.below(2) == 0 { [one, other] } else { [other, one] }
 }
 
-/// Everything that two bodies' pieces say of each other.
+/// Collects a result for each pair of the two bodies' pieces.
 fn piecewise<T>([a, b]: &[Body; 2], mut ask: impl FnMut(&Pair3, [u32; 2]) -> T) -> Vec<T> {
     let mut all = vec![];
     for (from_a, piece_a) in &a.pieces {
@@ -115,7 +115,7 @@ fn a_tree_of_parts_leaves_out_nothing_that_counts() {
         let overlaps = piecewise(&both, |pair, _| pair.overlaps()).contains(&true);
         assert_eq!(pair.overlaps(), overlaps, "{round}");
 
-        // The least of all pieces' separations; at a limit, that or a bound.
+        // The least of all pieces' separations; with a limit, that or a bound.
         let all = piecewise(&both, |pair, _| measured(pair.separation(f32::INFINITY)).unwrap());
         let least = all.iter().fold(f64::INFINITY, |least, (separation, _)| least.min(*separation));
         let (separation, error) = measured(pair.separation(f32::INFINITY)).unwrap();
@@ -159,7 +159,7 @@ fn a_tree_of_parts_leaves_out_nothing_that_counts() {
     assert!(touching > 300 && apart > 300 && met > 300, "{touching} {apart} {met}");
 }
 
-/// Casts and impacts of whole bodies come when the first of all pieces' do.
+/// Casts and impacts of whole bodies come at the first time of all pieces'. Returns how many hit.
 fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
     let [a, b] = both;
     let pair = Pair3::new(&a.whole, &a.pose, &b.whole, &b.pose);
@@ -191,15 +191,15 @@ fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
         let overlap = expected.iter().any(|impact| impact.overlapping);
         assert_eq!(found.is_some_and(|found| found.overlapping), overlap, "{round}");
         let at = found.map_or(f64::INFINITY, |found| found.fraction);
-        // A search ends within 1e-6 of the size, where depends on how far it need look.
+        // A search ends within 1e-6 of the size; where exactly depends on how far it has to search.
         assert!(at == first || (at - first).abs() < 3e-6, "{round}: {at} for {first}");
         met += usize::from(found.is_some_and(|found| !found.overlapping));
     }
     met
 }
 
-/// Bodies that drift past each other, with what the frame before left, as a world asks: into each other, out again, and
-/// apart, where a direction that parted them is tried first.
+/// Bodies that drift past each other, with the hints of the previous frame, as in a world: into each other, out again,
+/// and apart, where the axis that separated them is tried first.
 #[test]
 fn memory_changes_nothing_of_many_parts() {
     let mut random = Random::new(8150);
@@ -299,7 +299,7 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
         };
         far.sort_unstable();
         assert_eq!(far, (0..parts.len() as u32).collect::<Vec<_>>(), "{round}");
-        // All that are as near as the nearest, and none that is much further.
+        // All parts that are as near as the nearest, and none that is much further.
         let least = far.iter().map(|&part| gap(part)).fold(f32::INFINITY, f32::min);
         let mut nearest = vec![];
         compound.visit_nearest(&bounds, least.into(), |part| {
@@ -311,8 +311,8 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
     }
 }
 
-/// Segments have no width, and are hit by what passes within rounding: by what comes out of the loop over few parts,
-/// too, which goes on until it is some thousand roundings near.
+/// Segments have no width, and are hit by rays that pass within rounding: also with the loop over few parts, which goes
+/// on until it is within some thousand roundings.
 #[test]
 fn a_ray_beside_a_segment_meets_it_among_many_as_among_few() {
     let segment: Shape3 = Segment3::new(Vec3::ZERO, Vec3::X).unwrap().into();
@@ -332,14 +332,14 @@ fn a_ray_beside_a_segment_meets_it_among_many_as_among_few() {
     assert!(hits > 10 && hits < 30, "{hits}");
 }
 
-/// Poses near and far, turned and not, whose quaternion has any length.
+/// Poses near and far, rotated and not, with quaternions of any length.
 fn poses(random: &mut Random) -> impl Iterator<Item = Pose3> {
     let anywhere = [0.0, 1.0, 1e3, 1e6, 9e8].map(|far| anywhere(random, far));
     let turns = [Quat::IDENTITY, random.rotation(), random.rotation() * 3.0, random.rotation() * 1e-6];
     anywhere.into_iter().flat_map(move |place| turns.map(|turn| Pose3::new(place, turn).unwrap()))
 }
 
-/// Parts that are passed over reach no further than those that are looked at, bit for bit.
+/// Skipped parts reach no further than those that are tested, bit for bit.
 #[test]
 fn the_box_around_many_parts_is_that_around_them_one_by_one() {
     let mut random = Random::new(0xB0C5);
@@ -348,7 +348,7 @@ fn the_box_around_many_parts_is_that_around_them_one_by_one() {
     let grid: Vec<(Pose3, Shape3)> = (0..512).map(|i| (cell(i), cube.clone())).collect();
     let mut scenes = vec![grid.clone(), parts(&mut random, 16, 1e-3), parts(&mut random, 40, 5e5)];
     scenes.extend((0..30).map(|i| parts(&mut random, 16 + 40 * i, 6.0)));
-    // Many that reach nearly as far.
+    // Many parts that reach nearly equally far.
     let ball: Shape3 = Sphere::new(0.25).unwrap().into();
     for jitter in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3].repeat(4) {
         let near = |at: &Pose3, random: &mut Random| {

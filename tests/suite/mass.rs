@@ -11,7 +11,7 @@ use core::f64::consts::PI;
 use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 use oorandom::Rand64;
 
-/// What sums of a hundred terms, each right to a few roundings, may lose.
+/// Relative error of sums of a hundred terms, each right to a few roundings.
 const ROUNDING: f64 = 1e-13;
 
 fn of2(shape: impl Into<Shape2>) -> MassProperties2 {
@@ -26,7 +26,7 @@ fn hull(points: &[Vec3], radius: f32) -> Hull {
     Hull::of_any_dimension(points).unwrap().rounded(radius).unwrap()
 }
 
-/// Radius of gyration: the length that an error of the centre is measured by.
+/// Radius of gyration: errors of the centre are relative to it.
 fn gyration(mass: f64, inertia: f64) -> f64 {
     (inertia / mass).sqrt()
 }
@@ -55,8 +55,8 @@ fn check3(found: &MassProperties3, wanted: &MassProperties3, tolerance: f64) {
     assert!(place <= tolerance * gyration(wanted.mass, size) + rounded, "{found:?} is not {wanted:?}");
 }
 
-/// The second moments' least eigenvalue over their sum: negative where a principal moment of inertia is, or where
-/// one is larger than the other two together. By Jacobi's rotations.
+/// The least eigenvalue of the second moments over their sum: negative if a principal moment of inertia is negative, or
+/// larger than the other two together. By Jacobi rotations.
 fn least_spread(inertia: &DMat3) -> f64 {
     let half = trace(inertia) / 2.0;
     let mut c = (DMat3::IDENTITY * half - *inertia).to_cols_array_2d();
@@ -104,7 +104,7 @@ fn points(lattice: &[[i64; 3]], unit: f32) -> Vec<Vec3> {
     lattice.iter().map(|&p| Vec3::from_array(p.map(|value| value as f32 * unit))).collect()
 }
 
-/// Exact properties in lattice units, taken to metres. The unit must be a power of two.
+/// Exact properties in lattice units, converted to metres. The unit must be a power of two.
 fn in_metres(exact: &MassProperties3, unit: f64) -> MassProperties3 {
     let cube = unit * unit * unit;
     let inertia = exact.inertia * (cube * unit * unit);
@@ -133,15 +133,15 @@ fn polygons_weigh_what_exact_fractions_say() {
             let Ok(polygon) = Polygon::hull_of(&cloud) else { continue };
             let outline: Vec<[i64; 2]> =
                 polygon.vertices().iter().map(|v| v.to_array().map(|value| value as i64)).collect();
-            // The longer, the smaller the part of a product that an area is the difference of; lattice axes are kind.
+            // An area is a difference of products: the longer the polygon, the less of them is left. Lattice axes are
+            // benign.
             check2(&of2(polygon.clone()), &exact::polygon(&outline), ROUNDING);
             assert_eq!(of2(polygon.rounded(0.0).unwrap()), of2(Polygon::hull_of(&cloud).unwrap()));
         }
     }
 }
 
-/// Points about a line or plane that no axis lies in, closer together towards the origin, and each with its own
-/// last bit.
+/// Points about a line or plane oblique to all axes, denser towards the origin, and each with its own last bits.
 fn thin_cloud(random: &mut Rand64, thickness: f64, is_plate: bool) -> Vec<Vec3> {
     let mut share = || random.rand_float() * 2.0 - 1.0;
     let mut spread = || (share(), [1.0, 0.1, 1e-2, 1e-3][(share().abs() * 4.0) as usize]);
@@ -225,7 +225,7 @@ fn balls_discs_and_capsules_are_those_of_the_textbook() {
     let found = of3(Capsule3::from_half_height(1.0, 0.75).unwrap());
     check3(&found, &MassProperties3 { mass, center: DVec3::ZERO, inertia }, 1e-14);
     assert_eq!((found.center, found.inertia.x_axis.y, found.inertia.z_axis.y), (DVec3::ZERO, 0.0, 0.0));
-    // A slanted and shifted one, by its own axis: n n^T along + (1 - n n^T) across.
+    // A slanted and shifted one, about its own axis: n n^T along + (1 - n n^T) across.
     let from = Vec3::new(100.0, 200.0, 300.0);
     let slanted = Capsule3::new(from, from + Vec3::new(1.0, 2.0, -2.0), 0.75).unwrap();
     let (n, (mass, along, across)) = (DVec3::new(1.0, 2.0, -2.0) / 3.0, capsule(3.0));
@@ -234,15 +234,14 @@ fn balls_discs_and_capsules_are_those_of_the_textbook() {
     let center = from.as_dvec3() + n * 1.5;
     check3(&of3(slanted), &MassProperties3 { mass, center, inertia }, 1e-14);
 
-    // Half a disc has its centroid at 4 r / 3 pi.
+    // A half disc has its centroid at 4 r / 3 pi.
     let caps = disc * (r * r / 2.0 + h * h / 4.0 + 4.0 / 3.0 / PI * h * r);
     let inertia = 2.0 * r * h * (h * h + 4.0 * r * r) / 12.0 + caps;
     let stadium = MassProperties2 { mass: 2.0 * r * h + disc, center: DVec2::ZERO, inertia };
     check2(&of2(Capsule2::from_half_height(1.0, 0.75).unwrap()), &stadium, 1e-14);
 }
 
-/// Corners of a box with the given half extents, as integers, turned by the rotation of integers `turn` (rows) over
-/// `scale`.
+/// Corners of a box with the given half extents, as integers, rotated by the integer matrix `turn` (rows) over `scale`.
 fn turned_box(half: [i64; 3], turn: [[i64; 3]; 3]) -> Vec<[i64; 3]> {
     let corner = |i: i64| [0, 1, 2].map(|axis| if i >> axis & 1 == 1 { half[axis] } else { -half[axis] });
     let turned = |c: [i64; 3]| turn.map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2]);
@@ -251,7 +250,7 @@ fn turned_box(half: [i64; 3], turn: [[i64; 3]; 3]) -> Vec<[i64; 3]> {
 
 #[test]
 fn a_round_box_is_the_hull_of_its_corners_however_it_lies() {
-    // A rotation of integers over 15: every corner, and so the truth, stays exact.
+    // A rotation by integers over 15: every corner, and so the truth, stays exact.
     let turn = [[11, -2, 10], [10, 5, -10], [-2, 14, 5]];
     let rotation =
         DMat3::from_cols_array_2d(&turn.map(|row| row.map(|value| value as f64 / 15.0))).transpose();
@@ -286,7 +285,7 @@ fn a_round_rectangle_is_the_hull_of_its_corners_however_it_lies() {
             let (h, r) = (extents.as_dvec2(), f64::from(radius));
             let steiner = 4.0 * h.x * h.y + 4.0 * (h.x + h.y) * r + PI * r * r;
             assert!((of2(rounded).mass - steiner).abs() < 1e-14 * steiner);
-            // Turned by 3, 4, 5, which keeps its corners on the lattice.
+            // Rotated by a 3-4-5 rotation, which keeps the corners on the lattice.
             let turn = |x: f32, y: f32| Vec2::new(3.0 * x - 4.0 * y, 4.0 * x + 3.0 * y);
             for corners in [rounded.vertices(), [(-a, -b), (a, -b), (a, b), (-a, b)].map(|(x, y)| turn(x, y))]
             {
@@ -301,7 +300,8 @@ fn a_round_rectangle_is_the_hull_of_its_corners_however_it_lies() {
 fn a_round_tetrahedron_has_the_volume_of_steiners_formula() {
     let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].map(Vec3::from);
     let side = 8_f64.sqrt();
-    // All 6 edges turn by the supplement of the dihedral angle, whose cosine is a third: atan(sqrt 8) = 1.23095...
+    // At all 6 edges the surface turns by the supplement of the dihedral angle, whose cosine is a third: atan(sqrt 8) =
+    // 1.23095...
     let turn = PI - 1.230_959_417_340_774_7;
     for r in [0.0, 1e-30, 0.125, 1.0, 1000.0_f32] {
         let found = of3(hull(&corners, r));
@@ -315,15 +315,15 @@ fn a_round_tetrahedron_has_the_volume_of_steiners_formula() {
     }
 }
 
-/// A sum of two, each in the same axes.
+/// The sum of two, given in the same axes.
 fn both(a: &MassProperties3, b: &MassProperties3) -> MassProperties3 {
     MassProperties3::combined(&[*a, *b])
 }
 
 #[test]
 fn round_halves_and_their_cut_add_up() {
-    // For convex sets whose union is convex, rounding keeps inclusion and exclusion: whole + cut = one half + other
-    // half.
+    // For convex sets whose union is convex, inclusion-exclusion holds for the rounded shapes, too: whole + cut = one
+    // half + other half.
     let mut random = Rand64::new(5);
     for _ in 0..100 {
         let [x, y, z] = cloud(&mut random, 1, [40; 3])[0];
@@ -344,7 +344,7 @@ fn round_plates_and_their_cut_add_up() {
     let mut random = Rand64::new(6);
     for _ in 0..100 {
         let [x, y, z] = cloud(&mut random, 1, [20; 3])[0];
-        // In one plane that no axis lies in: z = x - 2 y.
+        // In one plane oblique to all axes: z = x - 2 y.
         let on = |x: i64, y: i64| [x, y, x - 2 * y];
         let (left, right) = (on(-50 + x, y), on(70 + y, z));
         let (low, high) = (on(z, -50), on(0, 60 + x));
@@ -360,7 +360,7 @@ fn round_plates_and_their_cut_add_up() {
     }
 }
 
-/// By the middles of a grid's cells that the shape holds.
+/// Sampled at the centres of a grid's cells that the shape contains.
 fn sampled(shape: &Shape3, cells: usize) -> MassProperties3 {
     let bounds = shape.bounds(&Pose3::IDENTITY, 0.0);
     let (low, step) = (bounds.min.as_dvec3(), (bounds.max - bounds.min).as_dvec3() / cells as f64);
@@ -387,7 +387,7 @@ fn round_hulls_weigh_what_a_fine_grid_holds() {
         let lattice = cloud(&mut random, 8, [64, 40, 20]);
         let radius = 0.125 + random.rand_float() as f32;
         let shape = Shape3::from(hull(&points(&lattice, 0.0625), radius));
-        // Some 3 N^2 cells are cut, each wrong by a half at most and as often one way as the other.
+        // Some 3 N^2 cells are cut, each wrong by at most a half, with either sign equally often.
         check3(&of3(shape.clone()), &sampled(&shape, 90), 1e-3);
     }
 }

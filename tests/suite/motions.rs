@@ -1,4 +1,4 @@
-//! What an update says of this frame's motions, against all pairs asked one by one.
+//! What an update reports of this frame's motions, against a loop over all pairs.
 
 use asunder::slotmap::Key;
 use asunder::{
@@ -10,10 +10,10 @@ use asunder_tests::engine::{Engine, slot_of};
 use rayon::ThreadPoolBuilder;
 use std::collections::BTreeMap;
 
-/// A bullet, what it runs into, whether either is a sensor, and when.
+/// A bullet, what it hits, whether either is a sensor, and the impact.
 type Expected<S> = (<S as Space>::Key, <S as Space>::Key, bool, <S as Space>::Impact);
 
-/// Bodies in a room, of which most are given a motion and some are bullets.
+/// Bodies in a room, most of them with a motion, and some of them bullets.
 struct Room<S: Engine> {
     world: World<S>,
     motions: BTreeMap<u32, S::Motion>,
@@ -41,7 +41,7 @@ impl<S: Engine> Room<S> {
         }
     }
 
-    /// What bullets run into, by all pairs.
+    /// What bullets run into, by a loop over all pairs.
     fn expected(&self) -> Vec<Expected<S>> {
         let bodies = S::bodies(&self.world);
         let still = S::shift(0.0);
@@ -62,8 +62,8 @@ impl<S: Engine> Room<S> {
                 }
                 let (a_moves, b_moves) = ((a, motion(*bullet)), (b, motion(*other)));
                 let found = match S::first_touch(a_moves, b_moves) {
-                    // In a sensor it is already; of what is solid, there may be more than what it touches, and less
-                    // than it would meet.
+                    // For solids, what is touched at the start and what is level with it is passed over. A sensor that
+                    // overlaps at the start gives no impact.
                     Some(_) if !a.is_sensor() && !b.is_sensor() => S::next_touch(a_moves, b_moves, &touches),
                     Some((fraction, false, impact)) => Some((fraction, impact)),
                     _ => None,
@@ -83,8 +83,8 @@ impl<S: Engine> Room<S> {
         all
     }
 
-    /// Fails unless the world, just updated, says what all pairs say; gives how many impacts and contacts to come
-    /// there were.
+    /// Asserts that the world, just updated, reports what the loop over all pairs does; returns the numbers of impacts
+    /// and speculative contacts.
     fn check(&self) -> (usize, usize) {
         let expected = self.expected();
         let found: Vec<_> = S::impacts(&self.world)
@@ -92,7 +92,7 @@ impl<S: Engine> Room<S> {
             .map(|hit| (hit.bullet, hit.other, hit.sensor, hit.impact))
             .collect();
         assert_eq!(found, expected);
-        // Whoever meets in these motions has a contact now, sensors aside.
+        // Pairs that meet during these motions have a contact now, except sensors.
         for &(bullet, other, sensor, _) in &expected {
             let contact = S::contact(&self.world, bullet, other);
             let [a, b] = [bullet, other].map(|key| S::get(&self.world, key).unwrap());
@@ -125,7 +125,7 @@ fn rooms<S: Engine>(seed: u128) {
             let (hit, to_come) = room.check();
             (impacts, speculative) = (impacts + hit, speculative + to_come);
         }
-        // Motions are this frame's alone.
+        // Motions hold for one frame only.
         room.world.update();
         assert!(S::impacts(&room.world).is_empty());
         assert!(S::contacts(&room.world).iter().all(|contact| !contact.speculative));
@@ -154,7 +154,7 @@ fn one_pair<S: Engine>() {
     let mut world = World::<S>::new();
     let a = S::insert(&mut world, S::unit_at(0.0));
     let b = S::insert(&mut world, S::unit_at(2.0).bullet());
-    // A gap of a metre; together they come nearer by 0.9 m, then by 1.5 m.
+    // A gap of a metre; the two approach each other by 0.9 m, then by 1.5 m.
     for (shift, is_near, is_hit) in [(0.9, false, false), (1.5, true, true), (0.0, false, false)] {
         assert!(S::set_motion(&mut world, a, S::shift(shift / 3.0)));
         assert!(S::set_motion(&mut world, b, S::shift(-shift * 2.0 / 3.0)));
@@ -167,7 +167,7 @@ fn one_pair<S: Engine>() {
             assert_eq!((hit.bullet, hit.other, hit.sensor), (b, a, false));
         }
     }
-    // They touch, and part; a motion that brings them back does not put off the end.
+    // They touch, and separate; a motion that brings them back does not delay the end event.
     assert!(S::set_pose(&mut world, b, S::pose_at(1.0)));
     world.update();
     assert!(S::events(&world)[0].is_began());
@@ -177,12 +177,12 @@ fn one_pair<S: Engine>() {
     assert!(matches!(S::events(&world), [event] if !event.is_began()));
     assert!(S::contact(&world, a, b).is_some_and(|contact| contact.speculative));
     assert!(!S::is_touching(&world, a, b));
-    // What overlaps at the start is a contact, not an impact.
+    // An overlap at the start is a contact, not an impact.
     assert!(S::set_pose(&mut world, b, S::pose_at(0.5)));
     assert!(S::set_motion(&mut world, b, S::shift(-1.0)));
     world.update();
     assert!(S::impacts(&world).is_empty() && S::is_touching(&world, a, b));
-    // A body that goes takes its motion along, and one that comes to its slot has none.
+    // A removed body takes its motion along, and a new one in its slot has none.
     assert!(S::set_motion(&mut world, b, S::shift(-9.0)));
     S::remove(&mut world, b);
     assert!(!S::set_motion(&mut world, b, S::shift(1.0)), "a stale key moves nobody");
@@ -220,7 +220,7 @@ fn too_many_pairs_are_no_impacts() {
 
 #[test]
 fn nothing_tunnels() {
-    // 500 m/s at 60 steps a second, at a wall of a centimetre; and a rod that turns half round past a post.
+    // 500 m/s at 60 steps a second, at a wall of a centimetre; and a rod that makes half a turn past a post.
     let mut world = World3::new();
     let wall = Cuboid::from_half_extents(Vec3::new(0.005, 5.0, 5.0)).unwrap();
     let wall = world.insert(Collider3::new(wall).fixed());
@@ -264,7 +264,8 @@ fn what_has_no_end_may_turn() {
     assert!(world.impacts().is_empty());
 }
 
-/// A rod of a thousand kilometres that turns half round about its end, past a post far from its boxes at start and end.
+/// A rod of a thousand kilometres that makes half a turn about its end, past a post far from its boxes at start and
+/// end.
 #[test]
 fn the_largest_bodies_sweep_no_less() {
     let mut world = World3::new();
@@ -278,7 +279,7 @@ fn the_largest_bodies_sweep_no_less() {
     assert!(matches!(world.impacts(), [hit] if (hit.bullet, hit.other) == (rod, post)));
 }
 
-/// So many bullets that several threads look at them.
+/// Enough bullets for several threads.
 #[test]
 fn every_number_of_threads_says_the_same() {
     let run = |threads: usize| {
@@ -296,7 +297,7 @@ fn every_number_of_threads_says_the_same() {
     assert!([2, 8].into_iter().all(|threads| run(threads) == alone));
 }
 
-/// What is replaced is another body, which was given no motion.
+/// A replaced body is another body, which was given no motion.
 #[test]
 fn a_body_that_is_replaced_forgets_its_motion() {
     let ball = || Collider3::new(Sphere::new(0.5).unwrap());

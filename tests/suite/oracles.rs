@@ -1,4 +1,4 @@
-//! The judges, held against each other and against cases whose answer is known before anything runs.
+//! The oracles, compared with each other and with cases whose answer is known beforehand.
 
 mod exact;
 mod numbers;
@@ -12,10 +12,10 @@ use asunder_tests::exhaustive_sat::{exhaustive_sat2, exhaustive_sat3, gap2, gap3
 use asunder_tests::solid::Solid;
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// What f64 leaves of a pair about a metre in size: forty or so roundings of 1.1e-16 each.
+/// Rounding of f64 for a pair about a metre in size: forty or so roundings of 1.1e-16 each.
 const ROUNDING: f64 = 1e-14;
 
-/// As above for a gap along the line between two points: the closer they are, the less is known of its direction.
+/// The same for a gap along the line between two points: the closer they are, the less certain is its direction.
 fn rounding_along_line(distance: f64) -> f64 {
     ROUNDING * (1.0 + 0.1 / distance)
 }
@@ -64,7 +64,7 @@ fn distance_and_separation_prove_each_other() {
         if best.gap > 0.0 {
             apart += 1;
             let nearest = exhaustive_distance3(&a, &b);
-            // The two points bound the distance from above, the gap along their line bounds it from below.
+            // The two points bound the distance from above, the gap along their line from below.
             let below = gap3(&a, &b, (nearest.on_b - nearest.on_a) / nearest.distance);
             assert!(
                 (nearest.distance - below).abs() <= rounding_along_line(nearest.distance),

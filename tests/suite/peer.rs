@@ -1,8 +1,8 @@
 //! Against parry3d on 160,000 pairs: overlap, distance, and depth.
 //!
 //! parry works in f32 and iterates, so near touching it is often wrong: within [`BAND`] of the pair's size nothing is
-//! asked of it. Its depth is that of some axis, not always the least, so it may be greater than ours and not less.
-//! Outside the band every disagreement is a failure of one side, and the judges say of which.
+//! compared. Its depth is that of some axis, not always the least, so it may be greater than ours but not less. Outside
+//! the band every disagreement is an error of one side, and the oracles decide of which.
 
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 use asunder_narrow::{Pair2, Pair3, Separation2, Separation3};
@@ -13,10 +13,10 @@ use parry3d::math::{Pose, Rotation, Vector};
 use parry3d::query::{contact, distance, intersection_test};
 use parry3d::shape::{ConvexPolyhedron, Cuboid, Shape};
 
-/// Share of a pair's size within which parry's answers are not held against ours.
+/// Share of a pair's size within which parry's answers are not compared with ours.
 const BAND: f64 = 1e-3;
 
-/// A shape and parry's twin of it.
+/// A shape and parry's equivalent of it.
 struct Twin<S> {
     ours: S,
     theirs: Box<dyn Shape>,
@@ -44,20 +44,20 @@ fn pose_of(position: Vec3, rotation: Quat) -> Pose {
     Pose::from_parts(Vector::new(position.x, position.y, position.z), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
 }
 
-/// What both sides were asked, and what they said.
+/// The answers of both sides.
 struct Said {
     size: f64,
     separation: f64,
     their_overlap: bool,
     their_distance: f64,
-    /// Depth as a negative number, where parry finds the shapes in overlap.
+    /// Depth as a negative number, where parry finds an overlap.
     their_depth: Option<f64>,
 }
 
-/// Compares outside the band; `judge` is the true separation, and what to print.
+/// Compares outside the band; `judge` returns the true separation, and what to print.
 ///
-/// A yes or no that differs is a failure. Where parry's iteration stopped short of a distance or a depth, the judges
-/// decide: it is a failure of ours unless they refute parry and confirm us to the band's thousandth part. Returns
+/// Different overlap decisions are a failure. Where parry's iteration stopped short of a distance or a depth, the
+/// oracles decide: it is a failure of ours unless they refute parry and confirm us to a thousandth of the band. Returns
 /// whether they had to.
 fn compare(said: &Said, judge: impl FnOnce() -> (f64, String)) -> bool {
     let &Said { size, separation, their_overlap, their_distance, their_depth } = said;
@@ -78,10 +78,10 @@ fn compare(said: &Said, judge: impl FnOnce() -> (f64, String)) -> bool {
     true
 }
 
-/// Of `rounds` pairs, so many found apart, so many in overlap, and in so many parry was refuted, of each 1,000.
+/// Checks how many of `rounds` pairs were apart, in overlap, and refuted for parry, with a limit per 1,000 on the last.
 fn check_tally(rounds: usize, [apart, overlapping, refuted]: [usize; 3], per_thousand: f64) {
     assert!(apart > rounds / 4 && overlapping > rounds / 4, "{apart} apart, {overlapping} in overlap");
-    // More than its usual share would mean that the comparison says nothing.
+    // More than its usual share would mean that the comparison is worthless.
     assert!(
         refuted as f64 <= per_thousand * rounds as f64 / 1000.0,
         "parry refuted in {refuted} of {rounds}"
@@ -97,7 +97,7 @@ fn ask_parry(pose_a: &Pose, a: &dyn Shape, pose_b: &Pose, b: &dyn Shape) -> (boo
     )
 }
 
-/// Compares `rounds` random pairs of a pool of solids; both signs must come up often.
+/// Compares `rounds` random pairs from a pool of solids; both signs must occur often.
 fn compare_solids(seed: u128, rounds: usize, mut make: impl FnMut(&mut Random) -> Shape3) {
     // Seen: about 1 in 10,000.
     let per_thousand = 0.3;
@@ -107,7 +107,7 @@ fn compare_solids(seed: u128, rounds: usize, mut make: impl FnMut(&mut Random) -
     for _ in 0..rounds {
         let (a, b) = (&pool[random.below(pool.len())], &pool[random.below(pool.len())]);
         let reach = f64::from(a.ours.outer_radius() + b.ours.outer_radius());
-        // Both sides see the same f32 positions, in the coordinates of a small level.
+        // Both sides get the same f32 positions, in the coordinates of a small level.
         let at = (random.vector() * 5.0).as_vec3();
         let away = (random.direction() * reach * random.between(0.0, 1.3)).as_vec3();
         let [(at_a, turn_a), (at_b, turn_b)] = [(at, random.quaternion()), (at + away, random.quaternion())];
@@ -151,8 +151,8 @@ fn cuboids_prisms_and_hulls() {
     compare_solids(402, 30_000, Random::shape3);
 }
 
-/// Polygons are prisms to parry. They are so thick along z that the way out is never along it, and stand at one
-/// height, so that the answer in space is the one in the plane.
+/// For parry, polygons are prisms, so thick along z that the least translation is never along z, and at one height, so
+/// that the answer in space is that in the plane.
 #[test]
 fn polygons_as_thick_prisms() {
     let mut random = Random::new(403);

@@ -1,7 +1,6 @@
-//! Manifolds that are moved along: they say what the shapes do at their new poses, within the error that they state, or
-//! refuse.
+//! Manifolds that are moved along: at the shapes' new poses they are right within their stated error, or are rejected.
 //!
-//! The judges are separations in double-double arithmetic, exact overlap, and drifts measured at the vertices.
+//! The oracles are separations in double-double arithmetic, exact overlap, and drifts measured at the vertices.
 
 use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Compound3, Cuboid, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
@@ -13,8 +12,8 @@ use asunder_scenes::random::Random;
 use asunder_tests::precise::{along2, separation2, separation3};
 use glam::{DQuat, DVec2, DVec3, Vec2, Vec3};
 
-/// What a manifold may say that it is off by, as a share of the pair's size: twice a drift of 2^-15 of the smaller
-/// radius, or once that on a footing, and next to nothing for rounding.
+/// The largest error that a manifold may state, as a share of the pair's size: twice a drift of 2^-15 of the smaller
+/// radius, or once that on a footing, and a little for rounding.
 const PROMISED: f64 = 3.1e-5;
 
 const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Touch, PairSet::Mixed, PairSet::Slide];
@@ -27,7 +26,7 @@ fn kept(pair: &PosedPair3, margin: f32) -> Option<Persistent3> {
     Persistent3::of(&job, &batch.answers[0], &batch.manifolds)
 }
 
-/// A small turn about any axis, and a small step.
+/// A small rotation about any axis, and a small step.
 fn small(random: &mut Random, turn: f64, step: f64) -> (DQuat, DVec3) {
     let axis = random.direction() * turn * 0.5;
     (DQuat::from_xyzw(axis.x, axis.y, axis.z, 1.0).normalize(), random.direction() * step)
@@ -43,7 +42,7 @@ fn moved(pose: &Pose3, (turn, step): (DQuat, DVec3), around: DVec3) -> Pose3 {
     Pose3::new(place, rotation).unwrap()
 }
 
-/// How far the vertices of B went, seen from A, and those of A from B: the lesser of the two greatest.
+/// How far the vertices of B moved relative to A, and those of A relative to B: the lesser of the two maxima.
 fn drift(before: &PosedPair3, now: &PosedPair3) -> f64 {
     let seen = |pair: &PosedPair3, of: usize| -> Vec<DVec3> {
         let (shape, pose, other): (&Shape3, _, _) = if of == 0 {
@@ -70,7 +69,7 @@ fn along(pair: &PosedPair3, axis: DVec3) -> f64 {
     offset + least(&pair.shape_b, &pair.pose_b, axis) + least(&pair.shape_a, &pair.pose_a, -axis)
 }
 
-/// Fails unless what was moved along is true of the pair as it stands now.
+/// Asserts that a manifold that was moved along is right for the pair at its present poses.
 fn check(persistent: &Persistent3, pair: &PosedPair3, margin: f32, story: &str) {
     let mut found = Vec::new();
     assert!(persistent.carry_on([&pair.pose_a, &pair.pose_b], &mut found));
@@ -117,7 +116,7 @@ fn what_is_moved_along_is_true_in_space() {
                 let Some(persistent) = kept(&pair, margin) else { continue };
                 let story = format!("{} {} {number}", kind.name(), set.name());
                 for round in 0..12_usize {
-                    // Both go a long way together first, or not; then B a little by itself, turned or not.
+                    // Both first move a long way together, or not; then B moves a little by itself, turning or not.
                     let spread = [1e-5, 1e-6, 1e-7, 1e-8][round % 4] * size;
                     let (together, alone) = match round {
                         0..4 => (0.0, 0.0),
@@ -143,7 +142,7 @@ fn what_is_moved_along_is_true_in_space() {
                         carried += 1;
                         slid += usize::from(drift > 4e-5 * size);
                     } else {
-                        // Rotations are stored in f32, and so moved by some 1e-7 of the size.
+                        // Rotations are stored in f32, and so points move by some 1e-7 of the size.
                         refused += 1;
                     }
                 }
@@ -159,7 +158,7 @@ fn job(pair: &PosedPair3, margin: f32) -> Job3<'_> {
     Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false }
 }
 
-/// Contacts that rounding, or a drift, could decide either way are never kept.
+/// Contacts that rounding or a drift could decide either way are never kept.
 #[test]
 fn what_is_close_to_call_is_not_kept() {
     let mut seen = 0;
@@ -171,7 +170,7 @@ fn what_is_close_to_call_is_not_kept() {
             let pose_b = Pose3::new(pair.pose_b.position() + normal * by, pair.pose_b.rotation()).unwrap();
             PosedPair3 { pose_b, ..pair.clone() }
         };
-        // A millionth of a millimetre of overlap, or of gap, and the same from the margin.
+        // A millionth of a millimetre of overlap, or of gap, and the same around the margin.
         let close =
             [(depth - 1e-9, 0.0, 3e-9), (depth + 1e-9, 0.01, -3e-9), (depth + 0.01 - 1e-9, 0.01, 3e-9)];
         for (by, margin, step) in close {
@@ -187,7 +186,7 @@ fn what_is_close_to_call_is_not_kept() {
 }
 
 /// A corner across a gap from a corner, or from an edge, has a normal of its own, which turns with the bodies; in the
-/// plane, nothing is kept.
+/// plane, such contacts are not kept.
 #[test]
 fn corners_across_a_gap_are_kept_by_what_is_nearest() {
     let square = Shape2::from(Rect::from_half_extents(Vec2::ONE).unwrap());
@@ -234,9 +233,9 @@ fn corners_across_a_gap_are_kept_by_what_is_nearest() {
     assert!(seen[0] > 40 && seen[1] > 40, "{seen:?}");
 }
 
-/// Along the normal of what was moved along, all of both bodies are as far apart as is told: not only what is near.
-/// Edges and corners that stand nearly face to face would lean with every step if they turned the normal; a face that
-/// is turned by its own small body, and not by the ground under it, lifts that at its far end.
+/// Along the normal of a manifold that was moved along, all of both bodies are as far apart as reported, not only what
+/// is near. If edges and corners almost face to face turned the normal, it would tilt with every step; a face that
+/// turned with its own small body, and not with the ground under it, would lift the ground's far end.
 #[test]
 fn far_ends_are_as_far_apart_along_the_normal_as_is_told() {
     let cube = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::splat(half)).unwrap());
@@ -273,13 +272,13 @@ fn far_ends_are_as_far_apart_along_the_normal_as_is_told() {
     }
 }
 
-/// Of a body of several parts another may come within the margin.
+/// Another part of a compound may come within the margin.
 #[test]
 fn what_has_parts_is_not_kept() {
     let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
     let part = |place: [f64; 3]| (Pose3::at(place).unwrap(), cube.clone());
     let shape_a = Compound3::new([part([0.0; 3]), part([4.007, 0.0, 0.0])]).unwrap().into();
-    // Between both parts: two edges are 3 mm from it, two others just out of the margin.
+    // Between both parts: two edges are 3 mm from it, two others just outside the margin.
     let pair = |x: f64| PosedPair3 {
         shape_a: Shape3::clone(&shape_a),
         pose_a: Pose3::IDENTITY,
@@ -294,9 +293,9 @@ fn what_has_parts_is_not_kept() {
     assert_eq!(kept(&pair(2.003), 0.0041), None);
 }
 
-/// The second axis is as good as the first, and gains on it with every step: what a footing may lose is lost here. B
-/// leans by `lean` on A's top, with its deepest corners over A's rim: the normals of both faces show the same, and
-/// sliding along the slope changes one alone.
+/// The second axis is as good as the first, and gains on it with every step: the most that a footing can lose. B is
+/// tilted by `lean` on A's top, with its deepest corners over A's rim: the depth along both face normals is equal, and
+/// sliding along the slope changes one of them only.
 #[test]
 fn what_a_footing_may_lose_is_in_the_error() {
     let cuboid =
@@ -344,7 +343,7 @@ fn what_a_footing_may_lose_is_in_the_error() {
     }
 }
 
-/// Two plates half way through each other leave by either side, and what sinks one way rises the other.
+/// Two plates half way through each other may leave by either side, and what sinks on one side rises on the other.
 #[test]
 fn plates_through_each_other_have_no_footing() {
     let plate = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 1.0, 1e-3)).unwrap());
@@ -367,7 +366,7 @@ fn plates_through_each_other_have_no_footing() {
     assert!(seen > 0);
 }
 
-/// Points lose a thirtieth of a narrow patch at most.
+/// Points lose at most a thirtieth of a narrow patch.
 #[test]
 fn a_footing_reaches_a_64th_of_what_is_under_it() {
     let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap());
@@ -399,7 +398,7 @@ fn what_is_moved_along_is_true_in_the_plane() {
                 };
                 for round in 0..6_usize {
                     let angle = if round < 3 { 0.0 } else { random.range(-1.0, 1.0) };
-                    // A rotation by the half-angle's tangent.
+                    // A rotation, by the tangent of half its angle.
                     let (cos, sin) =
                         ((1.0 - angle * angle) / (1.0 + angle * angle), 2.0 * angle / (1.0 + angle * angle));
                     let turn = |v: DVec2| DVec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);

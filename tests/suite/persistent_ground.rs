@@ -1,6 +1,6 @@
-//! Manifolds of bodies on ground that are moved along: they say what new ones would, within the error that they state.
+//! Manifolds of bodies on ground that are moved along: they agree with new ones, within their stated error.
 //!
-//! The judges are exact overlap, heights of vertices over planes, what is made anew at the same poses, and drifts
+//! The oracles are exact overlap, heights of vertices over planes, manifolds made anew at the same poses, and drifts
 //! measured at the vertices.
 
 mod floors;
@@ -22,7 +22,7 @@ struct Stand {
     pose: Pose3,
     ground: Shape3,
     field: Pose3,
-    /// The ground is A.
+    /// Whether the ground is A.
     is_turned: bool,
 }
 
@@ -56,7 +56,7 @@ impl Stand {
         kept.carry_on([a, b], &mut found).then_some(found)
     }
 
-    /// From the ground to the body.
+    /// The normal from the ground to the body.
     fn towards(&self, manifold: &Manifold3) -> DVec3 {
         if self.is_turned { manifold.normal.as_dvec3() } else { -manifold.normal.as_dvec3() }
     }
@@ -89,7 +89,7 @@ fn grounds() -> Vec<(&'static str, Terrain, Shape3)> {
     ]
 }
 
-/// Bodies that stand on ground a little deep, or a little above it, flat or as they fell.
+/// Bodies that stand on ground slightly deep, or slightly above it, flat or as they fell.
 fn stands(ground: &(&str, Terrain, Shape3), random: &mut Random, count: usize) -> Vec<Stand> {
     let (_, terrain, shape) = ground;
     let mut stands = Vec::new();
@@ -103,7 +103,7 @@ fn stands(ground: &(&str, Terrain, Shape3), random: &mut Random, count: usize) -
             1 => Quat::from_xyzw(any.x as f32, any.y as f32, any.z as f32, 1.0).normalize(),
             _ => (DQuat::from_rotation_arc(DVec3::Y, normal) * DQuat::from_rotation_y(any.x * 3.0)).as_quat(),
         };
-        // The whole may stand far out, and turned.
+        // The whole scene may be far out, and rotated.
         let (out, lean) = match number % 4 {
             0 => (DVec3::ZERO, DQuat::IDENTITY),
             1 => (DVec3::new(3e5, -1e5, 2e5), DQuat::IDENTITY),
@@ -123,8 +123,9 @@ fn stands(ground: &(&str, Terrain, Shape3), random: &mut Random, count: usize) -
     stands
 }
 
-/// Symptom: a box with a corner a millimetre from the next bend of ground was asked about anew after a tenth of that.
-/// Cause: where a point might leave its features at the end of the longest way, all of the way was charged for.
+/// Symptom: the contact of a box with a corner a millimetre from the next bend of ground was made anew after a tenth of
+/// that distance. Cause: where a point might leave its features at the end of the longest possible motion, the cost of
+/// all of that motion was charged.
 #[test]
 fn a_box_on_a_roof_is_moved_along_up_to_the_ridge() {
     let mut random = Random::new(0x5EA7);
@@ -145,7 +146,7 @@ fn a_box_on_a_roof_is_moved_along_up_to_the_ridge() {
         let kept = stand.made(&stand.pose).2.expect("kept");
         let reach = f64::from(kept.reach());
         assert!(reach > 0.99 * from_ridge, "case {case}: {reach} m of {from_ridge}");
-        // Beyond the ridge ground falls off by more than half of the way.
+        // Beyond the ridge the ground falls by more than half of the distance moved.
         assert!(reach < 1.2 * from_ridge, "case {case}: {reach} m, and the ridge is after {from_ridge}");
     }
 }
@@ -164,7 +165,8 @@ fn down_and_out_of(slope: f64) -> [DVec3; 2] {
     [DVec3::new(1.0, -slope, 0.0).normalize(), DVec3::new(slope, 1.0, 0.0).normalize()]
 }
 
-/// How a box lies flat on the roof, turned by an angle, and where down the slope its highest corner is from its centre.
+/// The rotation of a box that lies flat on the roof, turned by an angle, and the place of its highest corner relative
+/// to its centre, measured down the slope.
 fn lying_on(slope: f64, angle: f64) -> (Quat, f64) {
     let [down, normal] = down_and_out_of(slope);
     let rotation = DQuat::from_rotation_arc(DVec3::Y, normal) * DQuat::from_rotation_y(angle);
@@ -173,7 +175,7 @@ fn lying_on(slope: f64, angle: f64) -> (Quat, f64) {
     (rotation.as_quat(), along.into_iter().fold(f64::INFINITY, f64::min))
 }
 
-/// A pose, moved by so much and turned by so many radians.
+/// A pose, moved by `step` and rotated by `spin`, in radians.
 fn moved(pose: &Pose3, step: DVec3, spin: DVec3) -> Pose3 {
     let turn = DQuat::from_xyzw(spin.x * 0.5, spin.y * 0.5, spin.z * 0.5, 1.0).normalize();
     let rotation = if spin == DVec3::ZERO {
@@ -184,7 +186,7 @@ fn moved(pose: &Pose3, step: DVec3, spin: DVec3) -> Pose3 {
     Pose3::new(pose.position() + step, rotation).unwrap()
 }
 
-/// What is told of a body that went so far, of those that were looked at.
+/// Counts of manifolds that were moved along.
 #[derive(Default)]
 struct Tally {
     carried: usize,
@@ -194,7 +196,7 @@ struct Tally {
     unmatched: usize,
 }
 
-/// How far the body's vertices went.
+/// How far the body's vertices moved.
 fn drift(stand: &Stand, now: &Pose3) -> f64 {
     let core = stand.body.core();
     let of_vertices = core
@@ -204,7 +206,7 @@ fn drift(stand: &Stand, now: &Pose3) -> f64 {
     of_vertices.fold(0.0, f64::max)
 }
 
-/// Corners of the body over faces of ground are as high as they are told to be.
+/// Asserts that corners of the body over faces of ground are at the reported heights.
 fn check_heights(stand: &Stand, now: &Pose3, manifold: &Manifold3, story: &str) {
     let ground = Ground::of(&stand.ground).unwrap();
     let (core, radius) = (stand.body.core(), f64::from(stand.body.radius()));
@@ -220,12 +222,12 @@ fn check_heights(stand: &Stand, now: &Pose3, manifold: &Manifold3, story: &str) 
             stand.field.position() - now.position() + point.anchor_b.as_dvec3() - point.anchor_a.as_dvec3()
         };
         let straight = manifold.normal.as_dvec3() * f64::from(point.separation);
-        // Anchors on ground are f32 of where they are on it.
+        // Anchors on ground are f32 positions on it.
         let coarse = 1e-6 * (stand.size() + 30.0);
         assert!((between - straight).length() <= coarse, "{story}: one is not over the other, {point:?}");
         if let (Feature::Vertex(vertex), Feature::Face(patch)) = (of_body, of_ground) {
             let place = stand.field.transform_back(now.transform(core.vertices()[vertex as usize]));
-            // Of the triangles that are one patch the one below it: they lie in one plane up to their rounding.
+            // Of the triangles of a patch, the one below the point: they are coplanar up to their rounding.
             let inside = |triangle: u32| {
                 let [a, b, c] = ground.corners(triangle).map(|corner| corner.as_dvec3());
                 let cross = (b - a).cross(c - a);
@@ -240,12 +242,12 @@ fn check_heights(stand: &Stand, now: &Pose3, manifold: &Manifold3, story: &str) 
             let cross = (b - a).cross(c - a).normalize();
             let up =
                 if cross.dot(stand.field.turn_back(stand.towards(manifold))) > 0.0 { cross } else { -cross };
-            // Along the normal that is told.
+            // Measured along the reported normal.
             let lean = up.dot(stand.field.turn_back(stand.towards(manifold)));
             let height = (up.dot(place - a) - radius) / lean;
             let off = (height - f64::from(point.separation)).abs();
             let may = f64::from(manifold.error) + 2e-6 * stand.size();
-            // What is less deep of a round body is measured out along its own face.
+            // For a rounded body, separations of points that are not the deepest are measured along its own face.
             let is_round = radius > 0.0 && !matches!(stand.body, Shape3::Sphere(_));
             assert!(is_round || off <= may, "{story}: {height} above, {point:?}, error {}", manifold.error);
         }
@@ -273,7 +275,7 @@ fn check(stand: &Stand, kept: &Persistent3, now: &Pose3, story: &str, tally: &mu
     let errors = |one: &Manifold3, other: &Manifold3| f64::from(one.error + other.error) + even;
     let made = kept.manifolds().map(|manifold| manifold.error).fold(0.0, f32::max);
     for manifold in &found {
-        // What it was, and twice a drift of 2^-15 of the radius, and rounding.
+        // What it was, twice a drift of 2^-15 of the radius, and rounding.
         let most = f64::from(made) + 6.2e-5 * stand.size();
         assert!(f64::from(manifold.error) <= most, "{story}: {manifold:?}");
         check_heights(stand, now, manifold, story);
@@ -323,7 +325,8 @@ fn what_is_moved_along_on_ground_is_what_would_be_made_anew() {
     );
 }
 
-/// In a world, resting bodies on a level keep their contacts from frame to frame, and give them up when the level goes.
+/// In a world, resting bodies on a level keep their contacts from frame to frame, and lose them when the level is
+/// removed.
 #[test]
 fn a_world_moves_contacts_with_a_level_along() {
     let terrain = Terrain::new(800, 1.0, 20);
@@ -362,10 +365,10 @@ fn a_world_moves_contacts_with_a_level_along() {
     }
 }
 
-/// On ground in narrow strips another normal often stands in for one that is refused: along it bodies were told to be
-/// further apart than they are, more than five times in these. What is told is what parts them, and they are kept no
-/// longer than that. One-sided ground does not tell of its rims and its back: there what is told is still more, and
-/// they are kept no longer all the same.
+/// On ground in narrow strips another normal often stands in for one that is rejected: along it, more than five bodies
+/// here are reported to be further apart than they are. The reported gap is what separates them, and manifolds are kept
+/// no longer than that. One-sided ground gives no contacts with its rims and its back: there the reported gap is still
+/// larger, and yet manifolds are kept no longer than the distance.
 #[test]
 fn a_gap_is_kept_no_longer_than_what_parts_them() {
     let mut random = Random::new(17);
@@ -404,7 +407,7 @@ fn a_gap_is_kept_no_longer_than_what_parts_them() {
             let parted = f64::from(nearest.distance) + f64::from(nearest.error);
             let told = found.iter().map(|of| of.separation - of.error).fold(f32::INFINITY, f32::min);
             kept_count += 1;
-            // Ground takes what differs by less than a millionth of the body for the same place.
+            // On ground, positions that differ by less than a millionth of the body count as the same.
             let allowed = 1e-6 * f64::from(stand.body.outer_radius());
             let is_wide = f64::from(told) > parted + allowed;
             assert!(!is_wide || is_one_sided, "{parted}, told {told}");

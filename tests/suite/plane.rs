@@ -1,5 +1,5 @@
-//! Polygons of many edges, and hints in the plane: numbers against all edges and all vertices, the pair the other way
-//! round, what a hint may change and what it may not.
+//! Polygons of many edges, and hints in the plane: numbers against all edges and all vertices, A and B swapped, what a
+//! hint may change and what it may not.
 
 use asunder_geometry::{Polygon, Pose2, Rect, Rotation2, Shape2};
 use asunder_narrow::{Answer, Batch2, FeatureId, Hint, Job2, Manifold2, Pair2, collide2};
@@ -9,11 +9,11 @@ use asunder_tests::cases::{Case2, Random};
 use asunder_tests::exhaustive_distance::exhaustive_distance2;
 use glam::{DVec2, Vec2};
 
-/// As for manifolds of few corners: a face is preferred within 5e-7 of size, and anchors are f32.
+/// As for manifolds of few corners: a face is preferred within 5e-7 of the size, and anchors are f32.
 const ON_SHAPE: f64 = 2e-6;
 
-/// An ellipse of random points, an even circle, a needle, one flat side under an arc, and steps that shrink from
-/// edge to edge: more edges than are looked at one by one.
+/// An ellipse of random points, an even circle, a needle, one flat side under an arc, and steps that shrink from edge
+/// to edge: more edges than are tested one by one.
 fn many_edges(random: &mut Random) -> Shape2 {
     let count = random.pick(&[17, 24, 40, 100, 250]);
     let middle = random.vector().truncate() * random.pick(&[0.0, 0.3, 10.0]);
@@ -21,7 +21,7 @@ fn many_edges(random: &mut Random) -> Shape2 {
         let family = random.below(5);
         let turn = random.direction2();
         let circle = |share: f64| {
-            // Half a turn either way, without trigonometry: the stereographic image of a line.
+            // Half a turn either way, without trigonometry: the inverse stereographic projection of a line.
             let t = 2.0 * share - 1.0;
             DVec2::new(1.0 - t * t, 2.0 * t) / (1.0 + t * t)
         };
@@ -44,8 +44,8 @@ fn many_edges(random: &mut Random) -> Shape2 {
     }
 }
 
-/// The outward unit normal of each edge and the gap that it shows, from stored vertices: lengths of edges are exact
-/// before they are turned, so that short ones have true normals.
+/// The outward unit normal of each edge and the gap along it, from stored vertices: edge vectors are exact before they
+/// are rotated, so that short ones have accurate normals.
 fn gaps(of: &Shape2, pose: &Pose2, other: &Shape2, other_pose: &Pose2) -> impl Iterator<Item = (f64, DVec2)> {
     let turned = |pose: &Pose2, v: DVec2| {
         let (c, s) = (f64::from(pose.rotation().cos()), f64::from(pose.rotation().sin()));
@@ -64,7 +64,7 @@ fn gaps(of: &Shape2, pose: &Pose2, other: &Shape2, other_pose: &Pose2) -> impl I
     })
 }
 
-/// The separation and its axis by every edge and, in a gap, every vertex. Cost: the product of the vertices.
+/// The separation and its axis from every edge and, in a gap, every vertex. Cost: the product of the vertex counts.
 fn truth(case: &Case2) -> (f64, DVec2) {
     let Case2 { shape_a, pose_a, shape_b, pose_b } = case;
     let of_b = gaps(shape_b, pose_b, shape_a, pose_a).map(|(gap, normal)| (gap, -normal));
@@ -80,7 +80,7 @@ fn truth(case: &Case2) -> (f64, DVec2) {
 
 const GAPS: [f64; 10] = [0.15, 1e-2, 1e-4, 1e-6, 1e-9, -1e-9, -1e-6, -1e-4, -1e-2, -0.2];
 
-/// Two polygons of many edges, or one and a rectangle, so many shares of their size apart.
+/// Two polygons of many edges, or one and a rectangle, with a random gap as a share of their size.
 fn case(random: &mut Random, round: usize) -> Case2 {
     let shape_a = many_edges(random);
     let shape_b = if random.below(3) == 0 { random.shape2() } else { many_edges(random) };
@@ -95,7 +95,7 @@ fn case(random: &mut Random, round: usize) -> Case2 {
     case
 }
 
-/// How long the vectors are that an answer is made of.
+/// The length of the vectors from which an answer is computed.
 fn reach(case: &Case2) -> f64 {
     let off = |shape: &Shape2| shape.center().as_dvec2().length();
     case.size()
@@ -162,7 +162,7 @@ fn polygons_of_many_edges_overlap_as_exact_arithmetic_says() {
     let mut random = Random::new(2702);
     let mut touching = 0;
     for round in 0..150 {
-        // Nearer than f64 tells, half of them.
+        // Half of them closer to touching than f64 resolves.
         let mut case = case(&mut random, round);
         if round.is_multiple_of(2) {
             let (separation, axis) = truth(&case);
@@ -178,7 +178,7 @@ fn polygons_of_many_edges_overlap_as_exact_arithmetic_says() {
     assert!(touching > 70);
 }
 
-/// The same points, the other shape's first.
+/// With A and B swapped, the same points result.
 #[test]
 fn the_manifold_of_b_and_a_is_that_of_a_and_b_in_a_mirror() {
     let mut random = Random::new(2703);
@@ -193,7 +193,7 @@ fn the_manifold_of_b_and_a_is_that_of_a_and_b_in_a_mirror() {
         let (Some(one), Some(other)) = (one, other) else { continue };
         let difference = f64::from((one.separation - other.separation).abs());
         assert!(difference <= f64::from(one.error) + f64::from(other.error), "{one:?}, {other:?}");
-        // Axes that are as deep up to the preference for A's edges may lie anywhere.
+        // Axes that tie within the preference for A's edges may differ completely.
         if (one.normal + other.normal).length() > 1e-3 {
             tied += 1;
             continue;
@@ -213,7 +213,7 @@ fn the_manifold_of_b_and_a_is_that_of_a_and_b_in_a_mirror() {
     assert!(compared > 900 && tied < compared / 20, "{compared} compared, {tied} tied");
 }
 
-/// What a pair's answer is, and its hint.
+/// A pair's overlap, hint and manifolds.
 fn ask(pair: &PosedPair2, hint: Hint, margin: f32) -> (Option<bool>, Hint, Vec<Manifold2>) {
     let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = pair;
     let job = Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor: false };
@@ -226,7 +226,7 @@ fn ask(pair: &PosedPair2, hint: Hint, margin: f32) -> (Option<bool>, Hint, Vec<M
     (overlapping, hint, batch.manifolds)
 }
 
-/// Sixty frames with the hints of the frames before, with none, and with those of other pairs.
+/// Sixty frames with the hints of the previous frames, with none, and with those of other pairs.
 #[test]
 fn hints_true_and_false_change_no_boolean_and_no_depth() {
     let mut stale = vec![Hint::NONE];
@@ -247,7 +247,7 @@ fn hints_true_and_false_change_no_boolean_and_no_depth() {
             for hinted in [&known, &misled] {
                 assert_eq!(hinted.0, without.0, "{pair:?}");
                 let numbers = |m: &[Manifold2]| m.iter().map(|m| m.separation).collect::<Vec<f32>>();
-                // Other edges may be kept; where the search begins is seen in the last bits alone.
+                // Other edges may be used; where the search starts affects only the last bits.
                 for (one, other) in numbers(&hinted.2).into_iter().zip(numbers(&without.2)) {
                     let error = hinted.2[0].error + without.2[0].error;
                     assert!((one - other).abs() <= error, "{one}, {other}: {pair:?}");
@@ -267,7 +267,7 @@ fn hints_true_and_false_change_no_boolean_and_no_depth() {
     assert!(apart > 1000 && overlapping > 1000, "{apart} apart, {overlapping} overlapping");
 }
 
-/// A pair that stays apart keeps a hint that shows it.
+/// A pair that stays apart keeps a hint whose axis separates it.
 #[test]
 fn a_pair_apart_leaves_a_hint_that_parts_it_in_the_next_frame() {
     for kind in PlaneKind::ALL {
@@ -287,7 +287,7 @@ fn a_pair_apart_leaves_a_hint_that_parts_it_in_the_next_frame() {
     }
 }
 
-/// A body with a flat side of one metre below, and as many corners as were asked for.
+/// A body with a flat side of one metre below, and this many corners.
 fn flat_below(corners: usize) -> Shape2 {
     let arc = (1..corners - 1).map(|i| {
         let t = i as f32 / (corners - 1) as f32;
@@ -300,7 +300,7 @@ fn flat_below(corners: usize) -> Shape2 {
 }
 
 /// A body that rests on a floor and sways so little that now its own side is the better reference and now the floor's:
-/// the normal flips from frame to frame without a hint, and stays with one, until the other is better by far.
+/// without a hint the normal flips from frame to frame; with one it stays, until the other is better by far.
 #[test]
 fn the_reference_edge_of_a_body_that_sways_stays_what_it_was() {
     let rect = Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.5)).unwrap());
@@ -314,10 +314,11 @@ fn the_reference_edge_of_a_body_that_sways_stays_what_it_was() {
     for (body, low) in [(rect, -0.5), (flat_below(8), 0.0), (flat_below(13), 0.0), (flat_below(40), 0.0)] {
         for (floor, top) in [(&wide, 1.0), (&many, 0.0)] {
             let smaller = f64::from(body.outer_radius());
-            // A's edge shows 4 m times the sine less than B's; B's must be better by 5e-7 of the smaller diameter.
+            // The depth along A's edge is less than along B's by 4 m times the sine; B's must be better by 5e-7 of the
+            // smaller diameter.
             let preference = 5e-7 * 2.0 * smaller;
             let lean = |preferences: f64| (preference * preferences / 3.5) as f32;
-            // The floor's normal is upright, the body's is not. Names are those of the same corners on either.
+            // The floor's normal is upright, the body's is not. Feature ids are those of the same corners with either.
             let is_on_body = |pair: &PosedPair2, hint: Hint| {
                 let (_, hint, manifolds) = ask(pair, hint, 0.01);
                 assert_eq!(manifolds[0].points.len(), 2, "{manifolds:?}");

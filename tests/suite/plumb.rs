@@ -1,5 +1,5 @@
-//! Contact points of solids in space: one end is the foot of the other, bit by bit, and what is kept of them gives them
-//! back.
+//! Contact points of solids in space: one end is the other's foot along the normal, bit for bit, and manifolds that are
+//! kept return them unchanged.
 
 use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere};
 use asunder_narrow::{Batch3, Hint, Job3, Manifold3, Pair3, Persistent3, collide3};
@@ -7,7 +7,8 @@ use asunder_scenes::pairs::{PairSet, PosedPair3, SolidKind, pairs3};
 use asunder_scenes::random::Random;
 use glam::{DVec3, Quat, Vec3};
 
-/// Which end is the other's foot, of all points alike: by what is told alone, in the order in which it is documented.
+/// Which end is the other's foot, for all points alike: from the reported numbers alone, in the documented order of
+/// operations.
 fn stays_on(manifold: &Manifold3, offset: DVec3) -> [bool; 2] {
     let normal = manifold.normal.as_dvec3();
     [true, false].map(|on_a| {
@@ -22,13 +23,13 @@ fn stays_on(manifold: &Manifold3, offset: DVec3) -> [bool; 2] {
     })
 }
 
-/// Fails unless all manifolds are plumb; says whether one was kept, and if so fails unless it comes back in every bit.
+/// Asserts that all manifolds are plumb; returns whether one was kept, in which case it must come back in every bit.
 fn check(pair: &PosedPair3, margin: f32) -> (usize, bool) {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
     let offset = pose_b.position() - pose_a.position();
     let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
     let mut batch = Batch3::default();
-    // As many as take the wide path, which must say the same.
+    // Eight jobs take the wide path, which must give the same.
     collide3(&[job; 8], &mut batch);
     let alone = Pair3::new(shape_a, pose_a, shape_b, pose_b).manifolds(margin);
     assert_eq!(alone.len() * 8, batch.manifolds.len());
@@ -66,7 +67,7 @@ fn points_of_all_solids_are_plumb_and_come_back_as_they_were() {
     assert!(manifolds > 2000 && kept > 1000, "{manifolds} manifolds, of which {kept} are kept");
 }
 
-/// What is much further from its body's position was rounded more coarsely, and takes no other end with it.
+/// The end much further from its body's position is rounded more coarsely, and must not move the other end with it.
 #[test]
 fn on_a_floor_as_wide_as_a_town_the_small_body_keeps_its_ends() {
     let mut random = Random::new(412);
@@ -99,7 +100,8 @@ fn on_a_floor_as_wide_as_a_town_the_small_body_keeps_its_ends() {
             assert!(!found.is_empty());
             for point in found.iter().flat_map(|manifold| &manifold.points) {
                 let own = if on_a { point.anchor_a } else { point.anchor_b };
-                // At a corner of the chip, or under the ball: off by millimetres, had it been moved with the other.
+                // At a corner of the chip, or under the ball: it would be off by millimetres if it had been moved with
+                // the other end.
                 let own = pose.turn_back(own.as_dvec3());
                 let is_corner = (own.abs() - DVec3::new(0.02, 0.01, 0.015)).length() < 1e-8;
                 let is_under = [0.0, 0.3].map(|x| (own - DVec3::new(x, -0.01, 0.0)).length() < 1e-7);

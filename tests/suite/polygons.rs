@@ -31,7 +31,7 @@ fn hulls_of_nasty_points_are_those_of_gift_wrapping() {
     assert!(hulls > 4000 && spoilt > 500, "{hulls} hulls, {spoilt} spoilt");
 }
 
-/// The furthest that any of a hull's vertices lies from the hull of a choice of them, measured to every side.
+/// The greatest distance of a hull's vertices from the hull of a subset of them, measured to every side.
 fn error_of(hull: &[Vec2], kept: &[usize]) -> f64 {
     let to_side = |p: DVec2, a: DVec2, b: DVec2| {
         let place = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
@@ -47,7 +47,7 @@ fn error_of(hull: &[Vec2], kept: &[usize]) -> f64 {
     (0..hull.len()).filter(|i| !kept.contains(i)).map(|i| outside(hull[i].as_dvec2())).fold(0.0, f64::max)
 }
 
-/// No choice of vertices has much less error, and the bound is the error up to its rounding.
+/// No choice of vertices has much less error, and the stated bound is the error up to rounding.
 #[test]
 fn simplified_hulls_are_as_good_as_the_best_of_all_choices() {
     let mut random = Random::new(3101);
@@ -83,20 +83,21 @@ fn simplified_hulls_are_as_good_as_the_best_of_all_choices() {
     assert!(worst >= 1.0);
 }
 
-/// On a circle of n vertices some chord must span n / k of them, rounded up: that is the best there is.
+/// On a circle of n vertices some chord must span n / k of them, rounded up: nothing better is possible.
 #[test]
 fn circles_are_simplified_evenly() {
     for (count, limit) in [(1024_usize, 16_usize), (1024, 31), (1000, 7), (4000, 333), (100, 99)] {
         let tips = count / 2;
         let mut random = Random::new(1);
-        // The tips of a star lie on a circle; every second dent does not.
+        // The tips of a star lie on a circle; the dents between them do not.
         let circle: Vec<Vec2> = star(&mut random, count).into_iter().step_by(2).take(2 * tips).collect();
         let hull = Polygon::simplify(&circle, 4096).unwrap();
         assert_eq!((hull.vertices().len(), hull.error()), (count, 0.0));
         let simple = Polygon::simplify(&circle, limit).unwrap();
         assert_eq!(simple.vertices().len(), limit);
         let steps = count.div_ceil(limit);
-        // The arc's height over a chord that spans so many steps is its highest vertex's, in the middle or beside it.
+        // The arc's height over a chord that spans this many steps is that of its highest vertex, in the middle or
+        // beside it.
         let half = |steps: usize| std::f64::consts::PI * steps as f64 / count as f64;
         let height = |steps: usize| {
             let off_middle = if steps.is_multiple_of(2) { 0.0 } else { half(1) };
@@ -126,7 +127,8 @@ fn a_million_points_are_simplified() {
     for limit in [4096, 64, 3] {
         let simple = Polygon::simplify(&disc, limit).unwrap();
         assert_eq!(simple.vertices().len(), limit);
-        // An arc of 1/k of the circle stands this high over its chord; points are dense, so little better can be had.
+        // An arc of 1/k of the circle has this height over its chord; points are dense, so hardly anything better is
+        // possible.
         let height = 100.0 * (1.0 - cosine(std::f64::consts::PI / limit as f64));
         let error = f64::from(simple.error());
         assert!(
@@ -148,7 +150,7 @@ fn limits_that_no_polygon_meets_are_refused() {
     assert!(message.contains("5000") && message.contains("Polygon::simplify"), "{message}");
 }
 
-/// Slivers have areas and centres that f64 cannot tell: nothing may become NaN, and the radii stay in order.
+/// Slivers have areas and centres that f64 cannot resolve: nothing may become NaN, and the radii stay in order.
 #[test]
 fn slivers_have_finite_centres() {
     let mut random = Random::new(3103);
@@ -200,7 +202,7 @@ fn the_faults_of_an_outline_are_named() {
 fn one_ulp_decides_between_simple_and_not() {
     let dented = |y: f32| outline(&[(0.0, 0.0), (2.0, 2.0), (2.0, 3.0), (1.0, y), (0.0, 3.0)]);
     assert_eq!(decompose(&dented(1.0)), Err(DecomposeError::Touching { vertex: 3, edge: 0 }));
-    // Both sides of the dent turn inwards even without the sliver below it: three parts are the fewest.
+    // Both sides of the dent turn inwards even without the sliver below it: three parts are the minimum.
     assert_eq!(decompose(&dented(1.0_f32.next_up())).unwrap().parts().len(), 3);
     assert!(matches!(
         decompose(&dented(1.0_f32.next_down())),
@@ -208,7 +210,7 @@ fn one_ulp_decides_between_simple_and_not() {
     ));
 }
 
-/// Every random outline is refused exactly when two of its edges meet, and for a reason that holds.
+/// Every random outline is rejected exactly when two of its edges meet, and for a true reason.
 #[test]
 fn outlines_are_refused_exactly_when_they_are_not_simple() {
     let mut random = Random::new(3104);
@@ -243,7 +245,7 @@ fn untangled_outlines_are_split_without_gap_or_overlap() {
 fn combs_stars_and_spirals_fall_into_few_parts() {
     let mut random = Random::new(3106);
     for teeth in [1, 2, 3, 10, 40] {
-        // A convex part reaches into one tooth only, and the bar is one part: fewer than one a tooth there cannot be.
+        // A convex part reaches into one tooth only, and the bar is one part: at least one part per tooth is needed.
         let parts = check_decomposition(&comb(teeth)).unwrap();
         assert!(parts >= teeth && parts <= 2 * teeth, "{parts} parts for {teeth} teeth");
     }
@@ -286,7 +288,7 @@ fn outlines_of_4096_vertices_are_split() {
     }
 }
 
-/// A bump that is too small for a shape is left out beside a part that is none; a chain of them is refused.
+/// A bump too small for a shape is left out beside a part that is large enough; a chain of them is rejected.
 #[test]
 fn parts_too_small_for_a_shape() {
     let step = 1.0 / 8_388_608.0;
@@ -302,7 +304,7 @@ fn parts_too_small_for_a_shape() {
     let parts = decompose(&bump).unwrap();
     assert_eq!(parts.parts().len(), 1, "the bump's radius is 2e-7");
     assert!(parts.contains(Vec2::new(0.0, 0.5)) && !parts.contains(Vec2::new(step, -0.5 * step)));
-    // A tail of bends, each 4e-7 m, on a triangle of a metre.
+    // A tail of bends, 4e-7 m each, on a triangle of a metre.
     let mut tail = outline(&[(-1.0, 0.0), (0.0, 0.0)]);
     let bend = |i: i32, side: i32| Vec2::new((i % 2 + side) as f32, -i as f32) * (2.0 * step);
     tail.extend((1..12).map(|i| bend(i, 0)));
@@ -319,7 +321,7 @@ fn parts_too_small_for_a_shape() {
 
 #[test]
 fn what_reaches_too_far_is_refused() {
-    // Each vertex is near enough; the circle about the centre of the whole reaches 1.4e6 m.
+    // Each vertex is near enough; but the circle about the centre of the whole reaches 1.4e6 m.
     let far = outline(&[(9.9e5, 0.0), (0.0, 9.9e5), (-9.9e5, 0.0)]);
     assert!(Polygon::new(&far).is_ok());
     assert_eq!(check_decomposition(&far), Err(DecomposeError::TooLarge { vertex: 0 }));

@@ -1,17 +1,17 @@
-//! Poses in the axes of others, against points that are taken through one after the other.
+//! Poses relative to others, against points that are transformed by one after the other.
 
 use asunder::glam::{DVec2, DVec3, Quat};
 use asunder::{Pose2, Pose3, PoseError, Rotation2};
 use asunder_tests::cases::Random;
 
-/// What rotations and what is turned by them may be off by for each metre.
+/// Error of rotations and of rotated points, per metre.
 const ROUNDED: f64 = 4.0 / 8_388_608.0;
 
 #[test]
 fn a_pose_in_a_pose_takes_points_where_one_after_the_other_does() {
     for seed in 0..20_000 {
         let mut random = Random::new(seed);
-        // Quaternions of any length mean rotations, and far from home nothing is lost but what f64 has not.
+        // Quaternions of any length denote rotations, and far from the origin only the precision of f64 is lost.
         let length = random.pick(&[1e-18, 1e-3, 1.0, 1e3, 1e18]);
         let far = random.pick(&[1.0, 1e3, 1e8]);
         let outer = Pose3::new(random.vector() * far, random.quaternion() * length).unwrap();
@@ -70,7 +70,7 @@ fn what_ends_out_of_range_is_refused() {
     let [far, other] = [9e8, -9e8].map(|x| Pose2::at([x, 0.0]).unwrap());
     assert_eq!(far.compose(&far).unwrap_err(), PoseError::PositionTooFar { axis: 0, value: 18e8 });
     assert_eq!(far.relative_to(&other).unwrap_err(), PoseError::PositionTooFar { axis: 0, value: 18e8 });
-    // The longest and the shortest quaternions that there are.
+    // The longest and the shortest quaternions.
     let long = Pose3::new(DVec3::ZERO, Quat::from_array([f32::MAX; 4])).unwrap();
     let short = Pose3::new(DVec3::ZERO, Quat::from_array([f32::from_bits(1); 4])).unwrap();
     for pair in [[long, long], [long, short], [short, short]] {

@@ -1,5 +1,5 @@
-//! Questions to a world against all of its bodies, one by one: before updates and after, near and far, however the
-//! world came about.
+//! Queries of a world against a loop over all of its bodies: before updates and after, near and far, whatever the
+//! world's history.
 
 mod asked;
 mod checked;
@@ -13,7 +13,7 @@ use asunder_tests::cases::Random;
 use checked::check;
 use sieve::Sieve;
 
-/// What a life of a world has seen, so that no part of a test is about nothing.
+/// Counts of what occurred in a run, so that no part of a test is vacuous.
 #[derive(Debug, Default)]
 struct Seen {
     asked: usize,
@@ -23,14 +23,14 @@ struct Seen {
     touched: usize,
 }
 
-/// A life: bodies come and go, move alone and in crowds, and questions come at any time.
+/// Runs a world in which bodies come and go, move alone and in crowds, with queries at any time.
 fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen {
     let mut random = Random::new(seed);
     let (mut world, mut copy) = (World::<S>::new(), World::new());
     let (mut keys, mut gone, mut seen) = (Vec::new(), Vec::new(), Seen::default());
     for step in 0..steps {
         match random.below(12) {
-            // Some hundred at once, so that lists grow too long and trees are made anew.
+            // Some hundred at once, so that lists grow too long and trees are rebuilt.
             0 if keys.len() < 150 => {
                 for _ in 0..40 + random.below(80) {
                     let body = S::shifted(S::random_body(&mut random, room), shift);
@@ -72,7 +72,7 @@ fn live<S: Questioned>(seed: u128, steps: usize, room: f64, shift: f64) -> Seen 
             let found = answers(&world, &asked, filter);
             check(&world, &asked, &sieve, &found);
             assert_eq!(visited(&world, &asked, filter), found, "visitors are told the same");
-            // A clone has no trees yet: the history of this world's changes nothing.
+            // A clone has no trees yet: the history of this world's trees changes nothing.
             assert_eq!(answers(&world.clone(), &asked, filter), found, "a clone answers the same");
             copy.clone_from(&world);
             assert_eq!(answers(&copy, &asked, filter), found, "so does one that was asked of others before");
@@ -110,7 +110,7 @@ fn every_question_at_any_time() {
     }
 }
 
-/// Where boxes of f32 are 64 m wide, and where metres still have millimetres.
+/// Where f32 AABBs are 64 m wide, and where positions of some metres still resolve millimetres.
 #[test]
 fn every_question_far_from_the_origin() {
     for (seed, shift) in [(1, 9.9e8), (2, -1e6), (3, 1e7)] {
@@ -122,8 +122,7 @@ fn every_question_far_from_the_origin() {
     }
 }
 
-/// Of ten thousand bodies, some move a little every frame: in a world that was asked all the time, and in one that
-/// never was.
+/// Of ten thousand bodies some move in every frame: in a world that is queried all the time, and in one that never was.
 fn crowd<S: Questioned>(bodies: usize, room: f64) {
     let mut random = Random::new(2900);
     let mut world = World::<S>::new();
@@ -160,7 +159,7 @@ fn crowds_of_which_few_or_many_move() {
     crowd::<Plane>(4000, 55.0);
 }
 
-/// Many threads ask a world that has just changed: whoever comes first makes the trees.
+/// Many threads query a world that has just changed: the first one builds the trees.
 fn threads<S: Questioned>(room: f64) {
     let mut random = Random::new(3000);
     let mut world = World::<S>::new();

@@ -1,4 +1,4 @@
-//! What is no shape and no pose is refused where it enters, by an error that says which and where.
+//! Invalid shapes and poses are rejected on construction, with an error that says which and where.
 
 mod limits;
 
@@ -39,25 +39,25 @@ fn outlines_that_are_no_convex_polygon() {
     assert_eq!(refused(&[(0.0, 0.0), (1.0, 0.0), (infinite, 1.0)]), PolygonError::NotFinite { index: 2 });
     assert_eq!(refused(&[(0.0, 0.0), (1.1e6, 0.0), (0.0, 1.0)]), PolygonError::TooLarge { index: 1 });
     assert!(matches!(refused(&[(0.0, 0.0), (1e-7, 0.0), (0.0, 1e-7)]), PolygonError::TooSmall { .. }));
-    // A star of five points turns left at each, and goes round twice.
+    // A star of five points turns left at each, and goes around twice.
     let star = [(0.0, 1.0), (-0.6, -0.8), (0.95, 0.3), (-0.95, 0.3), (0.6, -0.8)];
     assert_eq!(refused(&star), PolygonError::WindsRepeatedly);
     let line = Polygon::hull_of(&outline(&[(0.0, 0.0), (1.0, 1.0), (3.0, 3.0), (2.0, 2.0)]));
     assert_eq!(line.unwrap_err(), PolygonError::Collinear);
 }
 
-/// Any outline that `new` lets through is convex by our own count, and any that is convex gets through.
+/// Any outline that `new` accepts is convex by an independent test, and any convex one is accepted.
 #[test]
 fn random_outlines_are_refused_exactly_when_they_are_not_convex() {
     let mut random = Random::new(1000);
     let (mut accepted, mut refused) = (0, 0);
     for _ in 0..20_000 {
-        // On a lattice of small whole numbers every determinant is exact in f64.
+        // On a lattice of small integers every determinant is exact in f64.
         let points: Vec<DVec2> = (0..3 + random.below(3))
             .map(|_| DVec2::new(random.below(5) as f64, random.below(5) as f64))
             .collect();
         let count = points.len();
-        // Convex and counter-clockwise: every other vertex to the left of every side, or on it between its ends.
+        // Convex and counter-clockwise: every other vertex is to the left of every side, or on it between its ends.
         let sides = (0..count).all(|i| {
             let (from, to) = (points[i], points[(i + 1) % count]);
             (0..count).filter(|&k| k != i && k != (i + 1) % count).all(|k| {
@@ -89,7 +89,7 @@ fn clouds_that_span_no_space() {
     assert!(matches!(flat(|v| v * 1e-8), HullError::TooSmall { .. }));
     let points = [Vec3::ZERO, Vec3::X, Vec3::Y];
     assert_eq!(Hull::from_points(&points).unwrap_err(), HullError::TooFewPoints { count: 3 });
-    // Four corners of one plane, and the fourth a rounding off it: the second is a hull, however thin.
+    // Four coplanar corners, and the same with the fourth a rounding off the plane: the second is a hull, however thin.
     let lid = |z: f32| Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(1.0, 1.0, z)]);
     assert_eq!(lid(0.0).unwrap_err(), HullError::Flat { dimension: 2 });
     assert_eq!(lid(1e-30).unwrap().vertices().len(), 4);
@@ -145,7 +145,7 @@ fn poses_that_are_nowhere() {
     assert!(matches!(Rotation2::from_angle(f32::NAN), Err(PoseError::RotationNotFinite { .. })));
 }
 
-/// Errors are for people too: each says what was wrong with a number or a place in it.
+/// Errors are for people, too: each says what was wrong with a number, or at which index.
 #[test]
 fn messages_name_the_place() {
     let messages: [(Box<dyn Error>, &str); 5] = [

@@ -1,4 +1,4 @@
-//! What went wrong once, as the smallest scene that shows it: symptom, cause, scene.
+//! Past bugs, each as the smallest scene that shows it: symptom, cause, scene.
 
 mod bends;
 mod blades;
@@ -40,8 +40,9 @@ fn separation(pair: &Pair3) -> f32 {
     }
 }
 
-/// Symptom: two flat quads side by side, metres apart, were called overlapping. Cause: four turned corners of a quad
-/// are coplanar up to rounding only; their hull has two antipodal faces, and no normal that shows a gap in the plane.
+/// Symptom: two flat quads side by side, metres apart, were reported as overlapping. Cause: the four corners of a
+/// rotated quad are coplanar only up to rounding; their hull has two antipodal faces, and no normal that shows a gap
+/// within the plane.
 #[test]
 fn flat_quads_side_by_side_are_apart() {
     let corners = [
@@ -64,7 +65,8 @@ fn flat_quads_side_by_side_are_apart() {
     assert!(world.events().is_empty());
 }
 
-/// Symptom: `overlaps` said no and `separation` was negative. Cause: each had its own idea of which edge axes count.
+/// Symptom: `overlaps` was false and `separation` negative. Cause: each had its own rule for which edge pairs give an
+/// axis.
 #[test]
 fn ridges_a_hair_apart_have_one_answer() {
     let wedge = |up: f32| {
@@ -83,7 +85,7 @@ fn ridges_a_hair_apart_have_one_answer() {
 }
 
 /// Symptom: crates in a stack sank into each other by centimetres. Cause: boxes tilted by a hair touch where two edges
-/// cross, a single point that jumped from corner to corner, on which nothing can stand.
+/// cross, in a single point; it jumped from corner to corner, and nothing can stand on that.
 #[test]
 fn a_slightly_tilted_box_stands_on_a_patch() {
     let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());
@@ -97,12 +99,12 @@ fn a_slightly_tilted_box_stands_on_a_patch() {
         let doubled = (area[1] - area[0]).cross(area[2] - area[0]).length();
         assert!(doubled > 0.05, "step {step}: the points are all but in line");
         let deepest = manifold.points.iter().map(|point| point.separation).fold(f32::INFINITY, f32::min);
-        // Of a patch of more corners than four, one that is as deep as the deepest but for trembling.
+        // Of a patch with more than four corners, one that counts as deepest within the tolerance is kept.
         let even =
             if manifold.points.len() == 4 { 2.0 * EVEN_DEPTH as f32 * cube.outer_radius() } else { 0.0 };
         let (beyond, error) = (deepest - manifold.separation, manifold.error + 1e-6);
         assert!((-error..=error + even).contains(&beyond), "step {step}: {beyond}");
-        // Neither box has a face with this normal: two edges decide the depth.
+        // Neither box has a face with this normal: an edge pair decided the depth.
         let is_face = manifold.normal == Vec3::Y
             || above.basis().turn(DVec3::Y).dot(manifold.normal.as_dvec3()) > 1.0 - 1e-13;
         on_edges += usize::from(!is_face);
@@ -110,8 +112,8 @@ fn a_slightly_tilted_box_stands_on_a_patch() {
     assert!(on_edges > 10, "only {on_edges} poses were decided by edges");
 }
 
-/// Symptom: `touching` named a body that `is_touching` denied. Cause: only one of them looked whether it was still
-/// there.
+/// Symptom: `touching` named a body for which `is_touching` was false. Cause: only one of them checked that the body
+/// still existed.
 #[test]
 fn a_removed_body_is_touched_by_nobody() {
     let mut world = World3::new();

@@ -1,4 +1,4 @@
-//! What is stored comes back in every bit, and what is no shape is refused.
+//! Stored values come back in every bit, and invalid shapes are rejected.
 
 use asunder::{
     Capsule3, Collider2, Collider3, Compound3, Cuboid, DebugOptions, Event3, Filter3, Hull, Layers, Polygon,
@@ -12,12 +12,13 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// Debug prints every number so that it reads back as the same bits, signs of zeros included.
+/// Asserts that a value comes back. `Debug` prints every number so that it reads back as the same bits, including signs
+/// of zeros.
 fn assert_comes_back<T: Serialize + DeserializeOwned + core::fmt::Debug>(value: &T) -> T {
     let text = serde_json::to_string(value).unwrap();
     let back: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
     assert_eq!(format!("{back:?}"), format!("{value:?}"), "{text}");
-    // By way of a tree of values, as formats that buffer do.
+    // Through a tree of values, as formats that buffer do.
     let tree: T = serde_json::from_value(serde_json::to_value(value).unwrap()).unwrap();
     assert_eq!(serde_json::to_string(&tree).unwrap(), text);
     back
@@ -40,7 +41,7 @@ fn poses_and_rays_come_back_in_every_bit() {
         assert_comes_back(&Pose2::new(at.truncate(), rotation).unwrap());
         assert_comes_back(&Ray3::new(at, random.direction().as_vec3() * 1e-30).unwrap());
         assert_comes_back(&Ray2::new(at.truncate(), random.direction2().as_vec2()).unwrap());
-        // Rotations that were made of any numbers, tiny ones and axes among them.
+        // Rotations made from any numbers, including tiny ones and axes.
         let (c, s) = (random.signed() as f32, random.pick(&[1e-45_f32, 0.0, -0.0, 1e38, 1e-4]));
         if round % 2 == 0 || c != 0.0 {
             assert_comes_back(&Rotation2::new(c, s).unwrap());
@@ -69,7 +70,7 @@ fn every_kind_of_shape_comes_back_in_every_bit() {
     }
 }
 
-/// Answers to a batch, in every bit: from shapes, and from the same shapes stored and loaded.
+/// Answers of a batch are equal in every bit for shapes, and for the same shapes stored and loaded.
 #[test]
 fn loaded_shapes_give_equal_answers() {
     let random = &mut Random::new(702);
@@ -245,7 +246,7 @@ fn what_constructors_refuse_is_refused_with_what_they_say() {
     }
 }
 
-/// Every number of a stored hull in turn made another: it is refused, or is a hull that answers.
+/// Each number of a stored hull in turn is changed: it is rejected, or gives a hull that works.
 #[test]
 fn a_hull_with_a_number_changed_is_refused_or_sound() {
     let random = &mut Random::new(705);

@@ -1,16 +1,17 @@
-//! Separations and distances against the judges: an exhaustive separating axis test and an exhaustive distance.
+//! Separations and distances against the oracles: an exhaustive separating axis test and an exhaustive distance.
 
 use asunder::{Pair2, Pose2, Separation2};
 use asunder_tests::answers::{Asked, Asked2, Asked3, Measured};
 use asunder_tests::cases::Random;
 
-/// Rounding of the judges themselves, as a share of the pair's size: some forty roundings in f64.
+/// Rounding of the oracles themselves, as a share of the pair's size: some forty roundings in f64.
 const JUDGES: f64 = 2e-14;
 
-/// A normal is reported in f32: its direction is off by up to 1e-7, and turns a pair's reach by that much.
+/// A normal is reported in f32: its direction is off by up to 1e-7, which shifts points at the pair's size by that
+/// share.
 const NORMAL: f64 = 2e-7;
 
-/// Gaps that pairs are moved to, as shares of their size: clear ones, and ones that f32 and then f64 cannot tell.
+/// Gaps that pairs are moved to, as shares of their size: clear ones, and ones too small for f32, then for f64.
 const GAPS: [f64; 12] = [0.3, 1e-2, 1e-4, 1e-6, 1e-8, 1e-11, -1e-11, -1e-8, -1e-6, -1e-4, -1e-2, -0.2];
 
 fn check_measured(measured: &Measured, truth: f64, size: f64, what: &str) {
@@ -24,11 +25,11 @@ fn check_measured(measured: &Measured, truth: f64, size: f64, what: &str) {
         gap_along_normal >= separation - error - NORMAL * size,
         "{what}: the normal shows {gap_along_normal}, reported {separation}"
     );
-    // An error that says nothing would make every other claim here empty.
+    // A useless error bound would make every other check here empty.
     assert!(error <= 4e-6 * size + 1e-7 * separation.abs(), "{what}: error {error} of {size}");
 }
 
-/// Every claim about one pair; returns its true separation.
+/// Checks everything that is reported for one pair; returns its true separation.
 fn check(asked: &impl Asked) -> f64 {
     let (truth, size) = (asked.true_separation(), asked.size());
     let overlaps = asked.overlaps();
@@ -44,7 +45,7 @@ fn check(asked: &impl Asked) -> f64 {
     if let Some(nearest) = distance {
         check_measured(&nearest.measured, truth, size, &format!("distance of {asked:?}"));
         assert!(nearest.measured.separation > 0.0);
-        // Points are rounded to f32 once; in a hair's gap their line is noise, so only their lengths are held.
+        // Points are rounded to f32 once. Across a tiny gap their direction is noise, so only lengths are checked.
         let (on, error) = (NORMAL * size, nearest.measured.error);
         let points = nearest.points;
         assert!(
@@ -58,7 +59,7 @@ fn check(asked: &impl Asked) -> f64 {
     truth
 }
 
-/// With a limit, what is measured is as good as without, and a bound is one.
+/// With a limit, measured values are as good as without one, and a bound is a true bound.
 fn check_limits(asked: &impl Asked, truth: f64, size: f64) {
     for share in [0.0, 1e-3, 0.1] {
         let limit = (share * size) as f32;
@@ -71,7 +72,7 @@ fn check_limits(asked: &impl Asked, truth: f64, size: f64) {
                     f64::from(bound) <= truth + JUDGES * size,
                     "at least {bound}, true {truth}: {asked:?}"
                 );
-                // Rounded down to f32, a bound may come to rest on the limit.
+                // Rounded down to f32, a bound may end up equal to the limit.
                 assert!(bound >= limit, "at least {bound} says less than the limit {limit}: {asked:?}");
                 assert!(!asked.overlaps(), "a bound above zero, yet they overlap: {asked:?}");
             }
@@ -79,7 +80,7 @@ fn check_limits(asked: &impl Asked, truth: f64, size: f64) {
     }
 }
 
-/// Each sign of the true separation must have come up often enough for the test to mean something.
+/// Asserts that each sign of the true separation occurred often enough for the test to mean something.
 fn tally(truths: impl Iterator<Item = f64>, least: usize) {
     let (mut apart, mut overlapping) = (0, 0);
     truths.for_each(|truth| *if truth > 0.0 { &mut apart } else { &mut overlapping } += 1);
@@ -112,7 +113,7 @@ fn polygons_that_almost_touch() {
 
 #[test]
 fn a_gap_of_one_bit_in_the_plane_has_an_error_of_use() {
-    // Moved along a line until no f64 lies between where they touch and where they do not.
+    // Bisected along a line until no f64 lies between a pose that touches and one that does not.
     let mut apart = 0;
     for seed in 0..40_000 {
         let mut random = Random::new(seed);

@@ -1,4 +1,4 @@
-//! Every kind of shape against every other, in both orders: what is claimed of a pair is claimed of all of them.
+//! Every kind of shape against every other, in both orders: every claim about a pair is checked for all of them.
 
 mod compounds;
 mod contacts;
@@ -13,23 +13,24 @@ use asunder_tests::bodies::{Bodies2, Bodies3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{KINDS2, KINDS3, PLACES, pair2, pair3};
 
-/// Rounding of the judges themselves, as a share of the pair's reach: some forty roundings in f64.
+/// Rounding of the oracles themselves, as a share of the pair's reach: some forty roundings in f64.
 const JUDGES: f64 = 3e-14;
 
-/// A normal is reported in f32: its direction is off by up to 1e-7, and turns a pair's reach by that much.
+/// A normal is reported in f32: its direction is off by up to 1e-7, which shifts points at the pair's reach by that
+/// share.
 const NORMAL: f64 = 2e-7;
 
-/// A point lies on its shape up to this share of the pair's size: faces count as flat within a few 2.5e-7, a face
-/// is preferred to another axis within 5e-7, and anchors are f32.
+/// A point may be off its shape by this share of the pair's size: faces count as flat within a few 2.5e-7, a face is
+/// preferred to another axis within 5e-7, and anchors are f32.
 const ON_SHAPE: f64 = 2e-6;
 
-/// One pair with all that it is measured by.
+/// One pair with everything it is checked against.
 struct Judged<'a, T> {
     asked: &'a T,
     truth: f64,
-    /// The sum of the bounding radii that are finite.
+    /// The sum of the finite bounding radii.
     size: f64,
-    /// The size and the distance of the positions: what projections go through.
+    /// The size and the distance of the positions: the scale of projections.
     reach: f64,
 }
 
@@ -46,7 +47,7 @@ impl<T: Asked> Judged<'_, T> {
             gap_along_normal >= separation - error - NORMAL * reach,
             "{what}: the normal shows {gap_along_normal}, reported {separation} +- {error}: {asked:?}"
         );
-        // An error that says nothing would make every other claim here empty.
+        // A useless error bound would make every other check here empty.
         let most = 4e-6 * size + 1e-7 * separation.abs() + JUDGES * reach;
         assert!(error <= most, "{what}: error {error} of {size}: {asked:?}");
     }
@@ -79,7 +80,7 @@ impl<T: Asked> Judged<'_, T> {
         if let Some(nearest) = distance {
             self.check_measured(&nearest.measured, "distance");
             assert!(nearest.measured.separation > 0.0);
-            // Points are rounded to f32 once; in a hair's gap their line is noise, so only their lengths are held.
+            // Points are rounded to f32 once. Across a tiny gap their direction is noise, so only lengths are checked.
             let (on, error) = (NORMAL * reach, nearest.measured.error);
             let points = nearest.points;
             let on_shapes = points.beyond_a.abs() <= on + error && points.beyond_b.abs() <= on + error;
@@ -92,7 +93,7 @@ impl<T: Asked> Judged<'_, T> {
         }
     }
 
-    /// The manifold within `margin`, if it must be there or not.
+    /// Checks the manifold within `margin`, and whether there must be one.
     fn check_manifold(&self, margin: f64, most: usize) {
         let Self { truth, size, reach, asked } = *self;
         let manifold = asked.manifold(margin as f32);
@@ -107,7 +108,7 @@ impl<T: Asked> Judged<'_, T> {
         }
     }
 
-    /// What a manifold says of its pair, or of its pair of parts.
+    /// Checks a manifold of the pair, or of a pair of its parts.
     fn check_points(&self, manifold: &Manifold, margin: f64, most: usize) {
         let Self { truth, size, reach, asked } = *self;
         let slack = ON_SHAPE * size + NORMAL * reach;
@@ -137,7 +138,7 @@ impl<T: Asked> Judged<'_, T> {
         assert!(on_surfaces, "the deepest on both surfaces: {deepest:?}, true {truth}, of {asked:?}");
     }
 
-    /// The other way round: the same decision, the same number, the opposite normal.
+    /// With A and B swapped: the same decision, the same number, the opposite normal.
     fn check_swapped(&self) {
         let Self { truth, size, reach, asked } = *self;
         let swapped = asked.swapped();
@@ -148,7 +149,7 @@ impl<T: Asked> Judged<'_, T> {
             .map(|measured| measured.unwrap());
         let slack = one.error + other.error + JUDGES * reach;
         assert!((one.separation - other.separation).abs() <= slack, "{one:?}, {other:?}: {asked:?}");
-        // Features change sides with their shapes, as far as one pair of them is the only choice.
+        // Features swap sides with their shapes, unless several pairs of them are equally good.
         let [one, other] = [asked.manifold(0.0), swapped.manifold(0.0)];
         if let (Some(one), Some(other)) = (one, other)
             && truth < -1e-3 * size
@@ -159,7 +160,7 @@ impl<T: Asked> Judged<'_, T> {
     }
 }
 
-/// Runs every ordered pair of `kinds` rows through all places and counts both signs of each.
+/// Runs every ordered pair of `kinds` rows through all relative poses and counts both signs of each.
 fn tour<T: Asked>(
     names: &[&str],
     rounds: usize,
@@ -167,10 +168,10 @@ fn tour<T: Asked>(
     most: usize,
 ) {
     let kinds = names.len();
-    // Two sheets or needles meet seldom where nobody moves them together.
+    // Two sheets or needles rarely meet unless they are moved together.
     let is_sheet = |kind: usize| ["flat hull", "triangle", "segment"].contains(&names[kind]);
     for a in 0..kinds {
-        // The last row is the half-space or half-plane: two of them are a story of their own (`contacts`).
+        // The last row is the half-space or half-plane: two of them are tested separately (`contacts`).
         for b in 0..kinds - usize::from(a + 1 == kinds) {
             let (mut apart, mut overlapping) = (0, 0);
             for round in 0..rounds {

@@ -1,10 +1,10 @@
 //! Every kind of shape that parry3d has, against parry3d: overlap, distance and depth.
 //!
-//! As in [`peer`](crate::peer), nothing is asked within [`BAND`] of the pair's size, and where the answers differ
-//! beyond it the judges decide. A pair of kinds may have its share of refuted answers of parry's, which the message
-//! names. What parry cannot answer at all is listed in [`UNSUPPORTED`]. Its `contact` of a shape with a half-space,
-//! in this order, forgets to turn the pose round (`contact_support_map_halfspace` in 0.31), so that no depth is
-//! asked of it there.
+//! As in [`peer`](crate::peer), nothing is compared within [`BAND`] of the pair's size, and where the answers differ
+//! beyond it the oracles decide. For each pair of kinds some of parry's answers may be refuted, and the message lists
+//! them. What parry cannot answer at all is listed in [`UNSUPPORTED`]. Its `contact` of a shape with a half-space, in
+//! this order, forgets to invert the pose (`contact_support_map_halfspace` in 0.31), so that no depth is compared
+//! there.
 
 use asunder_geometry::{Pose3, Shape3};
 use asunder_narrow::Separation3;
@@ -21,10 +21,10 @@ use parry3d::shape::{
 };
 use std::collections::BTreeMap;
 
-/// Share of a pair's size within which parry's answers are not held against ours.
+/// Share of a pair's size within which parry's answers are not compared with ours.
 const BAND: f64 = 1e-3;
 
-/// What parry has no answer for, of overlap, distance and contact.
+/// Pairs for which parry supports neither overlap, nor distance, nor contact.
 const UNSUPPORTED: [(&str, &str); 1] = [("half-space", "half-space")];
 
 pub(crate) fn vector(v: Vec3) -> Vector {
@@ -36,7 +36,7 @@ pub(crate) fn pose_of(position: DVec3, rotation: Quat) -> Pose {
     Pose::from_parts(vector(p), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
 }
 
-/// Parry's twin of a shape; nothing where it has none.
+/// Parry's equivalent of a shape; `None` where it has none.
 pub(crate) fn twin(shape: &Shape3) -> Option<SharedShape> {
     let round = |radius: f32| radius > 0.0;
     Some(match shape {
@@ -88,7 +88,7 @@ pub(crate) fn twin(shape: &Shape3) -> Option<SharedShape> {
     })
 }
 
-/// What parry says: overlap, distance, and the depth as a negative number where it has one.
+/// Parry's answers: overlap, distance, and the depth as a negative number where it has one.
 fn ask_parry(a: (&Pose, &dyn Shape), b: (&Pose, &dyn Shape)) -> Option<(bool, f64, Option<f64>)> {
     let overlap = intersection_test(a.0, a.1, b.0, b.1).ok()?.intersecting;
     let distance = distance(a.0, a.1, b.0, b.1).ok()?.distance;
@@ -100,7 +100,7 @@ fn ask_parry(a: (&Pose, &dyn Shape), b: (&Pose, &dyn Shape)) -> Option<(bool, f6
     Some((overlap, distance.into(), deepest.filter(|&depth| depth < 0.0)))
 }
 
-/// A pair of bodies at f32 positions, so that both sides see the same.
+/// A pair of bodies at f32 positions, so that both sides get the same.
 fn pair(random: &mut Random, kinds: [usize; 2]) -> Case3 {
     let mut make = |kind: usize| KINDS3[kind].1(&mut Clay::thick(random));
     let (shape_a, shape_b) = (make(kinds[0]), make(kinds[1]));
@@ -113,7 +113,7 @@ fn pair(random: &mut Random, kinds: [usize; 2]) -> Case3 {
     Case3 { shape_a, pose_a, shape_b, pose_b }
 }
 
-/// Whether parry agrees: outside the band on yes or no, on the distance, and on no lesser depth.
+/// Whether parry agrees: outside the band about overlap and distance, and with a depth that is not less.
 fn agrees(separation: f64, band: f64, (overlap, distance, depth): (bool, f64, Option<f64>)) -> bool {
     if separation.abs() <= band {
         true
@@ -169,7 +169,8 @@ fn every_kind_that_parry_has_against_every_other() {
     check_tally(&tally, rounds);
 }
 
-/// Which pairs parry refuses, and that its refuted answers are few: more would mean that the comparison says nothing.
+/// Checks which pairs parry rejects, and that refuted answers are few: more would mean that the comparison is
+/// worthless.
 fn check_tally(tally: &BTreeMap<(&str, &str), [usize; 4]>, rounds: usize) {
     let unsupported: Vec<_> =
         tally.iter().filter(|(_, counts)| counts[3] > 0).map(|(names, _)| *names).collect();

@@ -1,5 +1,4 @@
-//! A world comes back from text: same outputs, same keys, same future, bit for bit. No file, however damaged,
-//! breaks one.
+//! A world restored from text has the same outputs, keys and future, bit for bit. No file, however damaged, breaks one.
 
 mod damaged;
 mod rollback;
@@ -18,7 +17,7 @@ use serde_json::json;
 /// Half of the side of the room, in metres: bodies of a metre meet often in it.
 const ROOM: f64 = 1.6;
 
-/// All that a world shows, in every bit.
+/// Everything that a world shows, in every bit.
 fn shown<S: Stored>(world: &World<S>) -> String {
     let mut shown = format!("{:?}", S::bodies(world));
     shown += &format!("{:?}{:?}{:?}", S::candidates(world), S::contacts(world), S::events(world));
@@ -38,7 +37,7 @@ fn shown<S: Stored>(world: &World<S>) -> String {
     shown + &format!("{counts:?}{}", world.stats().manifolds)
 }
 
-/// Something done to several worlds alike; keys of gone bodies are tried too.
+/// Does the same to several worlds; keys of removed bodies are tried, too.
 fn act<S: Stored>(worlds: &mut [World<S>], keys: &mut Vec<S::Key>, random: &mut Random) {
     let key = if keys.is_empty() { S::Key::null() } else { keys[random.below(keys.len())] };
     match random.below(19) {
@@ -83,7 +82,7 @@ fn act<S: Stored>(worlds: &mut [World<S>], keys: &mut Vec<S::Key>, random: &mut 
     }
 }
 
-/// A third of the pairs is refused, and of each contact some manifolds go.
+/// Updates with hooks that reject a third of the pairs, and remove some manifolds of each contact.
 fn update_with<S: Space>(world: &mut World<S>, dice: u64) {
     let thrown = |a: &Collider<S>, b: &Collider<S>| (a.get_user_data() + 31 * b.get_user_data() + dice) % 3;
     let pair = |a: Side<'_, S>, b: Side<'_, S>| thrown(a.body, b.body) != 0;
@@ -94,7 +93,7 @@ fn update_with<S: Space>(world: &mut World<S>, dice: u64) {
     world.update_with(&Hooks::new().pair(&pair).contact(&contact));
 }
 
-/// At a random moment of a life: the world itself, a clone, and two restored from its text have the same future.
+/// At a random moment, the world itself, a clone, and two worlds restored from its text have the same future.
 fn futures<S: Stored>(seed: u128) {
     let mut random = Random::new(seed);
     let (mut worlds, mut keys) = (vec![World::<S>::new()], Vec::new());
@@ -119,7 +118,7 @@ fn futures<S: Stored>(seed: u128) {
             world.update();
         }
     }
-    // What does not show yet is equal too.
+    // State that is not visible yet is equal, too.
     let texts = all.map(|world| S::text(&world));
     texts.iter().for_each(|text| assert_equal_texts(text, &texts[3], seed));
 }
@@ -142,7 +141,7 @@ fn restored_worlds_have_the_originals_future_in_the_plane() {
     (0..20).for_each(|seed| futures::<Plane>(900 + seed));
 }
 
-/// A crowd in which most rest: the restored world sweeps all where the original kept what rests.
+/// A crowd mostly at rest: the restored world sweeps all bodies where the original kept the resting ones.
 #[test]
 fn a_large_world_at_rest_comes_back() {
     let mut random = Random::new(1000);
@@ -226,7 +225,7 @@ fn a_number_that_lost_a_bit_is_noticed() {
     assert!(world.snapshot().checksum() != World3::new().snapshot().checksum());
 }
 
-/// A slot that was reused many times: restored by its version, not by as many removals.
+/// A slot that was reused many times is restored by its version, not by as many removals.
 #[test]
 fn old_slots_keep_their_versions() {
     let mut world = World3::new();

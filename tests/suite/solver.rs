@@ -1,7 +1,8 @@
-//! A first solver meets the manifolds: what games stack stands for five seconds, by the names of its contact points.
+//! A simple solver on the manifolds: what games stack stands for five seconds, warm-started by the feature ids of
+//! contact points.
 //!
-//! Eight substeps a step, contacts as springs of 60 Hz, friction 0.6, contacts within 2 cm of bodies 1 m wide.
-//! Overlaps are judged in double-double and not by the manifolds, which would not tell of a point that they miss.
+//! Eight substeps per step, contacts as springs of 60 Hz, friction 0.6, contacts within 2 cm of bodies 1 m wide.
+//! Overlaps are judged in double-double and not by the manifolds, which would not show a point that they miss.
 
 mod scenes;
 
@@ -12,20 +13,20 @@ use asunder_tests::solver::{Body, Names, STEP, Settings, Solver};
 use glam::{DVec3, Vec3};
 use scenes::{cards, crate_hull, cuboid, dropped, octagon, pyramid, stack};
 
-/// No pair overlaps by more of the smaller body's size. Springs yield under a load: ten bodies press the lowest in
-/// by 7e-4.
+/// The deepest allowed overlap of a pair, over the smaller body's size. Springs yield under load: ten bodies press the
+/// lowest in by 7e-4.
 const DEEPEST: f64 = 5e-3;
 
-/// No body comes further from where it was put, in sizes: what the springs yield, ten times over, is 4e-3.
+/// The furthest that a body may move from where it was put, in sizes: the springs yield by 4e-3, ten times over.
 const DRIFT: f64 = 0.02;
 
-/// Nor does it still go further in the last second.
+/// The furthest that it may still move in the last second.
 const LAST_DRIFT: f64 = 2e-3;
 
-/// Share of the points whose name was there in the step before.
+/// Least share of the points whose feature id existed in the previous step.
 const KEPT: f64 = 0.99;
 
-/// Seconds that everything stands for.
+/// Seconds for which everything must stand.
 const TIME: f64 = 5.0;
 
 /// Seconds after which contacts have settled.
@@ -36,11 +37,11 @@ const SETTLED: f64 = 1.0;
 struct Story {
     /// The deepest overlap of any pair, as a share of the smaller body's size, judged in double-double.
     deepest: f64,
-    /// How far a body has come from where it started, in sizes.
+    /// How far a body has moved from where it started, in sizes.
     drift: f64,
     /// The same in the last second alone.
     last_drift: f64,
-    /// Share of the points, once settled, whose name was there in the step before.
+    /// Share of the points, once settled, whose feature id existed in the previous step.
     kept: f64,
     points: usize,
 }
@@ -122,7 +123,7 @@ fn stacks_of_ten_stand() {
 
 #[test]
 fn two_cards_lean_on_each_other() {
-    // 15 and 25 degrees from upright, of which the tangent must be below the friction.
+    // 15 and 25 degrees from upright, whose tangents must be below the friction.
     for half_tangent in [0.13, 0.22] {
         assert_stands(&format!("cards at {half_tangent}"), &mut cards(half_tangent, Settings::default()));
     }
@@ -134,8 +135,8 @@ fn pyramids_of_ten_rows_stand() {
     assert_stands("pyramid of hulls", &mut pyramid(&cube_hull(), Settings::default()));
 }
 
-/// Where two faces share more than four corners, which four are kept changes with the last bits of the depths:
-/// impulses are lost, and a stack sways a little.
+/// Where two faces share more than four corners, which four are kept changes with the last bits of the depths: impulses
+/// are lost, and a stack sways slightly.
 #[test]
 fn stacks_of_ten_stand_on_patches_of_eight_corners() {
     for (name, shape, twist) in [
@@ -152,7 +153,7 @@ fn stacks_of_ten_stand_on_patches_of_eight_corners() {
     }
 }
 
-/// Half the substeps, so that a solver without memory cannot make up for it by work.
+/// Half the substeps, so that a solver without warm starting cannot make up for it by more iterations.
 fn frugal(names: Names) -> Settings {
     Settings { substeps: 4, names, ..Settings::default() }
 }
@@ -185,7 +186,7 @@ fn names_keep_what_stands_from_creeping() {
     }
 }
 
-/// Bodies of every kind, dropped from a hand's breadth or two, come to rest, on points whose names then stay.
+/// Bodies of every kind, dropped from a small height, come to rest on points whose feature ids then persist.
 #[test]
 fn dropped_bodies_come_to_rest() {
     for kind in [SolidKind::Box, SolidKind::Authored, SolidKind::Hull8, SolidKind::Hull16, SolidKind::Hull32]

@@ -1,7 +1,7 @@
-//! Resting bodies whose pose changes by a unit in the last place, and bodies in one place with their likes.
+//! Resting bodies whose pose changes by one ulp, and bodies in the same place as their like.
 //!
-//! A solver that is given another number of points each frame, or depths that jump, shakes. What a pose's last bits
-//! do to an answer is held against what they do to the shapes' vertices.
+//! A solver that gets another number of points each frame, or depths that jump, shakes. The effect of a pose's last
+//! bits on an answer is compared with their effect on the shapes' vertices.
 
 mod rests;
 
@@ -26,14 +26,14 @@ fn moved(pose: &Pose3, axis: usize, value: f64) -> Pose3 {
     Pose3::new(position, pose.rotation()).unwrap()
 }
 
-/// The pose with one of its three f64 coordinates a unit in its last place up and down.
+/// The pose with each of its three f64 coordinates an ulp up and down.
 fn moved_by_bits(pose: &Pose3) -> Vec<Pose3> {
     let values = |axis: usize| [pose.position()[axis].next_up(), pose.position()[axis].next_down()];
     (0..3).flat_map(|axis| values(axis).map(|value| moved(pose, axis, value))).collect()
 }
 
-/// The pose as an engine of f32 would change it: a coordinate, or one of the four numbers of the rotation, by a
-/// unit in the last place of an f32.
+/// The pose as an engine that uses f32 would change it: a coordinate, or one of the four numbers of the rotation, by
+/// one f32 ulp.
 fn changed_by_f32_bits(pose: &Pose3) -> Vec<Pose3> {
     let mut poses = Vec::new();
     for axis in 0..3 {
@@ -56,8 +56,8 @@ fn neighbours(pose: &Pose3) -> Vec<Pose3> {
     [moved_by_bits(pose), changed_by_f32_bits(pose)].concat()
 }
 
-/// The furthest that a vertex is moved from pose to pose, in metres. Seen from the body's own place, lest what is
-/// compared drown in the rounding of the comparison.
+/// The furthest that a vertex moves between two poses, in metres. Computed relative to the body's position, so that the
+/// result does not drown in rounding.
 fn furthest_move(body: &Shape3, one: &Pose3, other: &Pose3) -> f64 {
     let (from, to) = (one.basis(), other.basis());
     let shift = other.position() - one.position();
@@ -85,7 +85,7 @@ fn a_bit_of_a_pose_changes_no_count_of_points() {
     assert!(1000 * changed <= compared, "{changed} of {compared}");
 }
 
-/// How much a depth changes between two answers, in metres, beyond the last bit of the f32 that it is given in.
+/// How much the depth changes between two answers, in metres, beyond the last bit of its f32.
 fn change(one: &Manifold3, other: &Manifold3) -> f64 {
     let change = (f64::from(other.separation) - f64::from(one.separation)).abs();
     (change - f64::from(f32::EPSILON) * f64::from(one.separation.abs())).max(0.0)
@@ -104,8 +104,7 @@ fn a_bit_of_a_pose_changes_no_depth_by_more_than_it_moves_a_vertex() {
             assert!(share <= 30.0, "{share} times what a vertex moves: {base:?} {other:?} {rest:?}");
             worst = worst.max(share);
         }
-        // A bit of an f64 position is nothing; what is seen is two axes that tie, each as deep as the other within
-        // the errors.
+        // One bit of an f64 position is negligible; what shows is two axes that tie, equally deep within the errors.
         for there in moved_by_bits(&rest.there) {
             let other = manifold(&rest, &there);
             let (change, error) = (change(&base, &other), f64::from(base.error) + f64::from(other.error));
@@ -137,7 +136,7 @@ fn the_normal_of_a_resting_body_is_the_best_there_is() {
     eprintln!("the worst normal loses {worst} of size");
 }
 
-/// Every kind of solid in one pose with itself: no axis is any better than its opposite, and centres coincide.
+/// Every kind of solid against itself in one pose: no axis is better than its opposite, and the centres coincide.
 #[test]
 fn a_solid_in_its_own_place_is_as_deep_as_it_is_thin() {
     let mut random = Random::new(1603);

@@ -1,15 +1,15 @@
-//! Large worlds in which hardly anything moves: whole chunks of pairs go on from one update to the next without a look,
-//! and nobody can tell.
+//! Large worlds in which hardly anything moves: whole chunks of pairs are carried from one update to the next without
+//! being processed, and the results must not differ.
 //!
-//! What is held against them is a clone of the moment before: it has no chunk that it could go on with, and looks at
-//! every pair.
+//! The world is compared with a clone made just before the update: it has no chunk to carry over, and processes every
+//! pair.
 
 use crate::stored::Stored;
 use asunder::{Collider, Hooks, Plane, Volume, World};
 use asunder_tests::cases::Random;
 use asunder_tests::engine::{Change, Traits};
 
-/// A crowd of bodies that touch one another, among whom a few things happen in each frame, and nothing in some.
+/// A crowd of bodies that touch one another; a few things happen in most frames, and nothing in some.
 fn live<S: Stored>(seed: u128, (count, room): (usize, f64), frames: usize) {
     let mut random = Random::new(seed);
     let mut world = World::<S>::new();
@@ -37,9 +37,9 @@ fn live<S: Stored>(seed: u128, (count, room): (usize, f64), frames: usize) {
             }
         }
         let mut copy = world.clone();
-        // Now and then there is less room for pairs than there are: everything stays, and is looked at later.
+        // Now and then there is less room for pairs than needed: everything stays, and is processed later.
         let most = if frame % 17 == 16 { 10 } else { 1 << 24 };
-        // And a hook that says what bodies say, too, which is asked about pairs one by one.
+        // And a hook whose answer depends on the bodies alone, too; it is called for each pair.
         let hooks =
             Hooks::new().pair(&|a, b| a.body.get_user_data() % 19 != 3 || b.body.get_user_data() % 2 == 0);
         for world in [&mut world, &mut copy] {

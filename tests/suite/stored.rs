@@ -1,6 +1,7 @@
 //! Worlds as text, and back.
 //!
-//! Not in the tests' library: where rustdoc sees its opaque types from `asunder-benches`, it runs out of stack (1.95).
+//! Not in the tests' library: when rustdoc sees the opaque types here from `asunder-benches`, its stack overflows
+//! (1.95).
 
 use asunder::{Plane, Snapshot, Volume, World};
 use asunder_tests::engine::Engine;
@@ -11,7 +12,7 @@ use serde::de::DeserializeOwned;
 pub(crate) trait Stored: Engine {
     /// `World::snapshot`.
     fn snapshot(world: &World<Self>) -> impl Serialize + DeserializeOwned + PartialEq + core::fmt::Debug;
-    /// The snapshot's number.
+    /// The snapshot's checksum.
     fn checksum(world: &World<Self>) -> u64;
     /// The snapshot, by serde_json.
     fn text(world: &World<Self>) -> String;

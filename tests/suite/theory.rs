@@ -1,4 +1,4 @@
-//! The theory's own examples, each with the reason why it has the answer it has.
+//! Textbook examples, each with the reason for its answer.
 
 use asunder_geometry::{Aabb2, Aabb3, Cuboid, Hull, Polygon, Pose2, Pose3, Rect, Rotation2, Shape2, Shape3};
 use asunder_tests::answers::{Asked, Asked2, Asked3};
@@ -28,7 +28,7 @@ fn separation(asked: &impl Asked) -> f64 {
     measured.separation
 }
 
-/// Two boxes are apart exactly when one is left of, right of, below or above the other: each alone eliminates.
+/// Two boxes are apart exactly when one is left of, right of, below or above the other: each test alone can reject.
 #[test]
 fn four_way_elimination() {
     let middle = Aabb2::new(Vec2::ZERO, Vec2::ONE);
@@ -40,7 +40,7 @@ fn four_way_elimination() {
         assert_eq!(middle.overlaps(&other), !(left || right || below || above), "at {offset}");
         assert_eq!(middle.overlaps(&other), dx.abs() < 2 && dy.abs() < 2, "a step of 1.5 eliminates");
     }
-    // In space there are two ways more.
+    // In space there are two more directions.
     let middle = Aabb3::new(Vec3::ZERO, Vec3::ONE);
     for way in [Vec3::NEG_X, Vec3::X, Vec3::NEG_Y, Vec3::Y, Vec3::NEG_Z, Vec3::Z] {
         let moved = |by: f32| Aabb3::new(middle.min + way * by, middle.max + way * by);
@@ -48,7 +48,7 @@ fn four_way_elimination() {
     }
 }
 
-/// A square before a triangle's long side: in every other direction of the two they overlap.
+/// A square in front of a triangle's long side: along all other normals of the two they overlap.
 #[test]
 fn one_edge_normal_of_seven_separates() {
     let shape_a = Shape2::from(Rect::from_half_extents(Vec2::ONE).unwrap());
@@ -72,8 +72,8 @@ fn one_edge_normal_of_seven_separates() {
     }
 }
 
-/// Testing along n or along any multiple of n gives one answer: here the unscaled cross product against the unit
-/// axis on the judges' side, and quaternions of any length, which scale every axis, on the library's.
+/// Testing along n or along any multiple of n gives the same answer: here the unscaled cross product against the unit
+/// axis in the oracles, and quaternions of any length, which scale every axis, in the library.
 #[test]
 fn scaled_axes_give_equal_answers() {
     let mut random = Random::new(900);
@@ -95,18 +95,18 @@ fn scaled_axes_give_equal_answers() {
             };
             let Case3 { shape_a, pose_a, shape_b, pose_b } = asked.case();
             let scaled = case3(shape_a, longer(pose_a), shape_b, longer(pose_b));
-            // Each component of a scaled quaternion is rounded once more: 6e-8 of a turn, twice, on a metre or two.
+            // Each component of a scaled quaternion is rounded once more: 6e-8 of a turn, twice, at a metre or two.
             assert!((separation(&scaled) - here).abs() < 2e-6 * asked.size(), "{factor}: {asked:?}");
         }
     }
 }
 
-/// A quaternion of an eighth of a turn about an axis, by the tangent of its sixteenth: sqrt(2) - 1.
+/// The quaternion of an eighth of a turn about an axis, by the tangent of a sixteenth: sqrt(2) - 1.
 fn eighth_of_a_turn(axis: Vec3) -> Quat {
     Quat::from_vec4((axis * (2_f32.sqrt() - 1.0)).extend(1.0))
 }
 
-/// Two cubes, each standing on an edge, the edges crossing at a right angle: only their cross product separates.
+/// Two cubes, each standing on an edge, the edges crossing at a right angle: only their cross product separates them.
 #[test]
 fn crossing_edges_separate_where_no_face_does() {
     for (gap, apart) in [(1e-3, true), (1e-5, true), (-1e-5, false), (-1e-3, false)] {
@@ -131,8 +131,9 @@ fn crossing_edges_separate_where_no_face_does() {
     }
 }
 
-/// Two roofs ridge to ridge, the ridges crossing at a small angle in one point: no face separates them, since each
-/// ridge's ends lie below the other's eaves; the cross product of nearly parallel edges does, and must be believed.
+/// Two roofs ridge to ridge, the ridges crossing at a small angle in one point. No face separates them, since each
+/// ridge's ends lie below the other's eaves; the cross product of the nearly parallel edges does, and must not be
+/// discarded.
 #[test]
 fn ridges_that_cross_at_a_small_angle() {
     let roof = |eaves: f32| -> Shape3 {
@@ -150,12 +151,13 @@ fn ridges_that_cross_at_a_small_angle() {
             let [of_a, of_b] = [Axis::OfA, Axis::OfB].map(|kind| best_of_kind3(&a, &b, kind).gap);
             let across = best_of_kind3(&a, &b, Axis::Edges).gap;
             assert!(of_a < 0.0 && of_b < 0.0, "the example itself: no face separates: {of_a} {of_b}");
-            // Below this angle the cross product of two edges that were turned in f64 is mostly noise.
+            // Below this angle the cross product of two edges rotated in f64 is mostly noise.
             assert!(
                 angle < 1e-9 || (across - gap).abs() < 1e-3 * gap.abs(),
                 "the example itself: {across}, {gap}"
             );
-            // Edges closer to parallel than 1e-8 are no axes to the library; its error says so, its sign need not.
+            // The library ignores axes of edges closer to parallel than 1e-8; its error accounts for that, its sign
+            // need not.
             if angle >= 1e-7 {
                 assert_eq!(asked.overlaps(), gap <= 0.0, "angle {angle}, gap {gap}");
             }
@@ -170,7 +172,7 @@ fn corners(half: Vec3) -> Vec<Vec3> {
     cuboid.vertices().to_vec()
 }
 
-/// The cross product of nearly parallel edges is mostly rounding, and must not fake a gap between boxes in overlap,
+/// The cross product of nearly parallel edges is mostly rounding. It must not fake a gap between boxes that overlap,
 /// nor hide one between boxes apart.
 #[test]
 fn nearly_parallel_edges() {
@@ -192,7 +194,7 @@ fn nearly_parallel_edges() {
             ] {
                 let asked = case3(&a, Pose3::IDENTITY, &b, pose_b);
                 let truth = asked.true_separation();
-                // A tilt sinks or lifts a corner by no more than the angle times the reach.
+                // A tilt lowers or lifts a corner by at most the angle times the reach.
                 if depth.abs() > 2.0 * f64::from(angle) * asked.size() {
                     assert_eq!(truth < 0.0, depth > 0.0, "the example itself");
                 }
@@ -203,7 +205,7 @@ fn nearly_parallel_edges() {
     }
 }
 
-/// Coincident centres leave no direction from A to B: the depth is still the side, along some axis.
+/// Coincident centres give no direction from A to B: the depth is still the side, along some axis.
 #[test]
 fn identical_cubes_in_one_pose_are_a_side_deep() {
     let mut random = Random::new(902);
@@ -220,7 +222,7 @@ fn identical_cubes_in_one_pose_are_a_side_deep() {
         let asked =
             Asked2::new(Case2 { shape_a: square.clone(), pose_a: pose, shape_b: square, pose_b: pose });
         let measured = asked.separation(0.0).unwrap();
-        // In the plane the stored matrix may be an f32 rounding longer than 1.
+        // In the plane the stored matrix may be longer than 1 by an f32 rounding.
         assert!((measured.separation + 1.0).abs() <= measured.error + 1e-7, "{measured:?}");
     }
 }
@@ -244,7 +246,7 @@ fn small_boxes_with_a_tenth_of_a_gap_are_apart() {
     }
 }
 
-/// Long thin beams: 128 times as long as thick, where the reach magnifies every error of a direction.
+/// Beams 128 times as long as thick, where the reach magnifies every error of a direction.
 #[test]
 fn beams_of_128_to_1() {
     let mut random = Random::new(904);

@@ -1,4 +1,4 @@
-//! What bullets and casts meet on floors that are made of many bodies: walls and steps, and not the next tile's side.
+//! What bullets and casts hit on floors made of many bodies: walls and steps, and not the next tile's side.
 
 use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 use asunder::{
@@ -8,10 +8,10 @@ use asunder::{
 };
 use asunder_tests::cases::Random;
 
-/// Where the wall stands, whose face looks back along the floor.
+/// The x of the wall, whose face looks back along the floor.
 const WALL: f64 = 6.0;
 
-/// Bodies about their own position, and how far they reach down and ahead.
+/// Bodies, with how far they reach down and ahead from their position.
 fn solids() -> Vec<(Shape3, f64, f64)> {
     let balls =
         [0.3, -0.3].map(|x| (Pose3::at([x, 0.0, 0.0]).unwrap(), Shape3::from(Sphere::new(0.25).unwrap())));
@@ -27,7 +27,7 @@ fn slab(half: [f32; 3], at: [f64; 3]) -> Collider3 {
     Collider3::new(Cuboid::from_half_extents(Vec3::from(half)).unwrap()).at(Pose3::at(at).unwrap())
 }
 
-/// A yard that lies somewhere: tiles whose tops are at height 0, a metre wide or so, and a wall.
+/// A yard at any pose: tiles about a metre wide whose tops are at height 0, and a wall.
 struct Yard {
     world: World3,
     wall: BodyKey3,
@@ -59,7 +59,7 @@ impl Yard {
     }
 }
 
-/// Whether a wall is met that lies at a share of the way; fails where anything else is told.
+/// Whether the wall is hit, at the expected fraction of the way; panics if anything else is reported.
 fn meets_wall<K: PartialEq>(seed: u128, told: Option<(K, f64)>, (wall, expected): (K, f64)) -> bool {
     let Some((other, fraction)) = told else {
         assert!(expected > 1.0 - 1e-5, "{seed}: through the wall at {expected}");
@@ -121,7 +121,7 @@ fn who_sinks_into_a_tile_of_the_plane_is_led_over_the_next_and_into_the_wall() {
         let mut x = -7.0;
         while x < WALL + 1.0 {
             let (width, high) = (random.between(0.3, 1.5), random.between(0.2, 1.0));
-            // Of the very numbers that it is made of: a tile that is rounded wider is a seam of its own.
+            // In the same numbers that it is built from: a tile that is rounded wider makes a seam.
             let half = f64::from((width * 0.5) as f32);
             insert([half, high], [x + half, -f64::from(high as f32)]);
             x += 2.0 * half;
@@ -173,7 +173,7 @@ fn a_ball_that_rolls_over_tiles_is_never_stopped() {
             velocity = -velocity;
             bounces += 1;
         }
-        // A solver takes what it fell; a hair off the wall.
+        // A solver would undo the fall; a hair off the wall.
         let x = start.position().x + step.x * fraction;
         let place = DVec3::new(x.min(WALL - 0.2501), 0.2495, 0.1);
         if place.x < -6.0 {
@@ -184,7 +184,7 @@ fn a_ball_that_rolls_over_tiles_is_never_stopped() {
     assert!(bounces >= 1, "{bounces}");
 }
 
-/// Whom a body runs into that stands on a tile, when it goes along x: another tile whose top is so high.
+/// Whether a body that stands on a tile and moves along x hits the next tile, whose top is at this height.
 fn next_tile(
     world: &mut World3,
     (depth, fall): (f64, f64),
@@ -210,11 +210,11 @@ fn next_tile(
 #[test]
 fn what_stands_higher_or_is_gone_into_deeply_stops() {
     let meets = |sunk, height| next_tile(&mut World3::new(), sunk, height, |floor| floor);
-    // The box is 0.4 thick from its middle: 6.25 mm are level.
+    // The box is 0.4 thick from its centre: up to 6.25 mm are level.
     for (height, expected) in [(0.0, false), (0.006, false), (0.0065, true), (0.2, true), (-0.0005, false)] {
         assert_eq!(meets((0.001, 0.0), height), expected, "{height} m higher");
     }
-    // As deep as 0.2, all in all.
+    // Level to a depth of 0.2, including the fall.
     assert!(!meets((0.19, 0.0), 0.0) && meets((0.21, 0.0), 0.0));
     assert!(!meets((0.05, 0.14), 0.0) && meets((0.05, 0.16), 0.0));
 }
@@ -222,12 +222,12 @@ fn what_stands_higher_or_is_gone_into_deeply_stops() {
 #[test]
 fn what_carries_nobody_is_no_floor() {
     assert!(!next_tile(&mut World3::new(), (0.001, 0.0), 0.0, |floor| floor));
-    // As a sensor, disabled, or of the same owner or no common layer, it would carry nobody.
+    // As a sensor, disabled, of the same owner, or without a common layer, a tile carries nobody.
     assert!(next_tile(&mut World3::new(), (0.001, 0.0), 0.0, Collider3::sensor));
     assert!(next_tile(&mut World3::new(), (0.001, 0.0), 0.0, Collider3::disabled));
 }
 
-/// Whom a ball runs into that lies in a floor whose top is at height 0, on its way.
+/// The fraction at which a ball in a floor whose top is at height 0 hits something on its way.
 fn met_by_ball(walls: Vec<Collider3>, from: [f64; 3], way: [f64; 3]) -> Option<f64> {
     let mut world = World3::new();
     world.insert(slab([9.0, 1.0, 9.0], [0.0, -1.0, 0.0]).fixed());
@@ -247,8 +247,8 @@ fn met_by_ball(walls: Vec<Collider3>, from: [f64; 3], way: [f64; 3]) -> Option<f
     hit
 }
 
-/// Symptom: balls went through half-spaces whose pose stood level with the floor. Cause: a half-space was taken to end
-/// at its position along whatever axis.
+/// Symptom: balls went through half-spaces whose pose was level with the floor. Cause: a half-space was taken to end at
+/// its position along any axis.
 #[test]
 fn what_has_no_end_is_flush_with_nothing() {
     for height in [0.0, 0.001, -0.0005, 1.0, -3.0] {
@@ -271,14 +271,14 @@ fn what_has_no_end_is_flush_with_nothing() {
     }
 }
 
-/// Symptom: who lay deep in the floor and rose went through fences whose tops were level with it. Cause: how deep it
-/// was at the start counted nowhere, and rising took it away.
+/// Symptom: a ball deep in the floor that rose went through fences whose tops were level with the floor. Cause: its
+/// depth at the start was not taken into account, and rising reduced it.
 #[test]
 fn who_is_stuck_deep_and_rises_is_led_over_nothing() {
     let fence = |half: f32| slab([half, 0.5, 4.0], [9.0 + 3.0, -0.5, 0.0]);
     for (depth, rise) in [(0.3, 0.3), (0.2, 0.2), (0.2, 0.0), (0.1, 0.0)] {
         let met = met_by_ball(vec![fence(0.025)], [8.0, 0.25 - depth, 0.0], [8.0, rise, 0.0]);
-        // The fence is 2.5 cm thick, from its middle: 1.25 cm are its half.
+        // The fence is 2.5 cm thick from its centre: half of that is 1.25 cm.
         assert!(met.is_some(), "{depth} deep, by {rise}");
         let met = met_by_ball(vec![fence(1.0)], [8.0, 0.25 - depth, 0.0], [8.0, rise, 0.0]);
         assert_eq!(met.is_some(), depth > 0.125, "{depth} deep, by {rise}");
@@ -287,7 +287,7 @@ fn who_is_stuck_deep_and_rises_is_led_over_nothing() {
 
 #[test]
 fn a_bullet_that_stands_still_is_led_over_as_one_that_says_so() {
-    // A millimetre in its tile, while a platform as high comes from the side.
+    // A millimetre deep in its tile, while a platform of the same height comes from the side.
     for is_said in [false, true] {
         let mut world = World3::new();
         world.insert(slab([1.0, 0.5, 2.0], [0.0, -0.5, 0.0]).fixed());

@@ -8,7 +8,7 @@ use asunder::{BodyKey3, Collider3, Event3, Hooks, Pose3, Sphere, World3};
 use asunder_scenes::random::Random;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A ball as the loop knows it.
+/// A ball in the model.
 #[derive(Clone, Copy)]
 struct Ball {
     at: DVec3,
@@ -16,17 +16,17 @@ struct Ball {
     user_data: u64,
 }
 
-/// The pairs that overlap, the lower slot first, as the world tells of them.
+/// The pairs that overlap, the lower slot first, as the world reports them.
 type Touching = BTreeSet<(BodyKey3, BodyKey3)>;
 
-/// Bodies, and a way to compare keys by their slots: a key that is handed out again has the slot of the one before.
+/// Bodies, and the pairs that touch; keys are compared by slot: a key that is reused has the slot of the one before.
 struct Model {
     balls: BTreeMap<BodyKey3, Ball>,
     touching: Touching,
 }
 
 impl Model {
-    /// Pairs that overlap now. Nothing is near enough to touching for rounding to matter, or the seed is another.
+    /// Pairs that overlap now. The seed is chosen so that none is so close to touching that rounding matters.
     fn look(&self) -> Touching {
         let balls: Vec<_> = self.balls.iter().collect();
         let mut found = Touching::new();
@@ -68,7 +68,7 @@ fn check(world: &World3, model: &mut Model, story: &str) -> [usize; 3] {
             assert_eq!([user_data_a, user_data_b], known, "{story}");
         }
     }
-    // Without a margin, a contact is two balls that overlap.
+    // Without a margin, contacts are overlapping balls.
     let contacts: Touching = world.contacts().map(|contact| ordered(contact.a, contact.b)).collect();
     assert!(contacts == now && world.contacts().len() == now.len(), "{story}: contacts");
     let stats = world.stats();
@@ -93,7 +93,7 @@ fn pairs_by_tens_of_thousands_come_and_go_as_a_double_loop_says() {
     let (mut world, mut model) = (World3::new(), Model { balls: BTreeMap::new(), touching: Touching::new() });
     let (mut most, mut changes) = (0, 0);
     for frame in 0..48_u64 {
-        // From a heap of all on one place to a cloud without a contact, and back.
+        // From all balls in one heap to a cloud without a contact, and back.
         let spread = [6.0, 1.0, 0.3, 2.0, 40.0, 0.7, 6.0, 5.0][frame as usize % 8];
         let (comes, goes) = (random.range(0.0, 40.0) as u64, if frame < 10 { 0.0 } else { 0.1 });
         let keys: Vec<BodyKey3> = model.balls.keys().copied().collect();
@@ -125,6 +125,6 @@ fn pairs_by_tens_of_thousands_come_and_go_as_a_double_loop_says() {
         let [began, ended, touching] = check(&world, &mut model, &format!("frame {frame}"));
         (most, changes) = (most.max(touching), changes + began + ended);
     }
-    // Beyond the number of pairs from which chunks grow, and often.
+    // More pairs than the number from which chunks grow, and often.
     assert!(most > 30_000 && changes > 200_000, "{most} {changes}");
 }

@@ -6,7 +6,7 @@ use asunder::{
 };
 use asunder_tests::engine::{Engine, slot_of};
 
-/// One run of a story in both dimensions.
+/// Runs one story in both dimensions.
 macro_rules! in_both_worlds {
     ($($name:ident)*) => {$(
         #[test]
@@ -45,7 +45,7 @@ fn ended<K>(a: K, b: K, user_data_a: u64, user_data_b: u64) -> Event<K> {
     Event::Ended { a, b, user_data_a, user_data_b, sensor: false }
 }
 
-/// The same event, of a pair with a sensor.
+/// The same event, for a pair with a sensor.
 fn sensed<K>(mut event: Event<K>) -> Event<K> {
     let (Event::Began { sensor, .. } | Event::Ended { sensor, .. }) = &mut event;
     *sensor = true;
@@ -95,7 +95,7 @@ mod stories {
     }
 
     pub(super) fn events_come_in_pair_order<S: Engine>() {
-        // 0 and 1 touch, 3 touches nobody; then 3 drives through while 1 leaves.
+        // 0 and 1 touch, 3 touches nothing; then 3 moves to 0 while 1 leaves.
         let (mut world, keys) = row::<S>(&[0.0, 0.9, 10.0, 20.0]);
         assert_eq!(S::events(&world), [began(keys[0], keys[1], 10, 11)]);
         go(&mut world, keys[1], 10.5);
@@ -178,7 +178,7 @@ mod stories {
         world.update();
         assert!(S::events(&world).is_empty() && S::contacts(&world).is_empty());
         assert_eq!((world.len(), world.stats().bodies, world.stats().candidates), (1, 1, 0));
-        // A guest that leaves its slot to another in the same breath is not heard of either.
+        // A body that leaves its slot to another between two updates causes no event either.
         let guest = S::insert(&mut world, S::unit_at(0.5));
         S::remove(&mut world, guest);
         let tenant = S::insert(&mut world, S::unit_at(0.5).user_data(5));
@@ -278,7 +278,7 @@ mod stories {
         world.set_max_pairs(3);
         world.update();
         assert!(!world.stats().overflow);
-        // What began while frames were given up begins now; what went on all the time has no event.
+        // What began while updates were given up begins now; what went on all the time has no event.
         assert_eq!(S::events(&world), [began(keys[0], keys[2], 10, 12), began(keys[1], keys[2], 11, 12)]);
         assert_eq!(S::contacts(&world).len(), 3);
     }
@@ -335,10 +335,10 @@ mod stories {
         assert_eq!(world.stats().moved, 1, "other bits are, whatever they mean");
     }
 
-    /// Boxes are f32 and coarse far out, where one of their steps is 64 m: they must be rounded outwards.
+    /// AABBs are f32 and coarse far out, where one ulp is 64 m: they must be rounded outwards.
     pub(super) fn kissing_bodies_are_found_however_far_out<S: Engine>() {
         for origin in [0.0, 1.0 / 3.0, 4096.1, 1e6 + 0.7, -1e6 - 0.3, 1e8 + 0.9, -9e8 + 0.4] {
-            // On a grid of 2^-20 m, so that the two are a metre apart to the last bit.
+            // On a grid of 2^-20 m, so that the two are exactly a metre apart.
             let x = (f64::round(origin * 1_048_576.0)) / 1_048_576.0;
             for side in [1.0, -1.0] {
                 let (mut world, keys) = row::<S>(&[x, x + side]);
@@ -347,7 +347,7 @@ mod stories {
                 world.update();
                 assert_eq!(S::events(&world), [ended(keys[0], keys[1], 10, 11)], "at {x}, side {side}");
             }
-            // A margin is added before the box is rounded.
+            // A margin is added before the AABB is rounded.
             let mut world = World::<S>::new();
             for place in [x, x + 1.75] {
                 S::insert(&mut world, S::unit_at(place).margin(0.375).unwrap());
@@ -368,7 +368,7 @@ mod stories {
     }
 }
 
-/// What only concrete worlds have: many bodies by one call.
+/// What only concrete worlds have: many bodies in one call.
 macro_rules! many_at_once {
     ($($name:ident $space:ident)*) => {$(
         #[test]
@@ -386,7 +386,7 @@ macro_rules! many_at_once {
             assert_eq!(slot_of(tenant), slot_of(stale), "the story needs a reused slot");
             let at = $space::pose_at;
             for stale in [stale, null] {
-                // First, in the middle and last; and one body twice, of which the later counts.
+                // First, in the middle and last; and one body twice, where the later pose counts.
                 let fresh = [(keys[0], at(40.0)), (keys[2], at(1.0)), (keys[3], at(60.0)), (keys[2], at(40.5))];
                 for place in [0, 2, 4] {
                     for key in [keys[0], keys[2], keys[3]] {
@@ -428,7 +428,7 @@ fn margins_that_are_no_margins_are_refused() {
     }
 }
 
-/// Both worlds live in one program, and their keys do not mix: this is a claim about types, and compiles or not.
+/// Both worlds live in one program, and their keys do not mix: a claim about types, checked by compiling.
 #[test]
 fn both_worlds_in_one_program() {
     let mut flat = World2::new();

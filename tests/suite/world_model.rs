@@ -1,5 +1,5 @@
-//! Lists of operations on both worlds, against the model and against a fresh world with the same bodies; and clones and
-//! restored worlds among them, which go on beside those that they were made of.
+//! Lists of operations on both worlds, against the model and against a fresh world with the same bodies. Among the
+//! operations are clones and restored worlds, after which the originals go on as well.
 
 mod operation;
 mod twins;
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use twins::{ROOM, Stage, Twins};
 
-/// Goes through a list, and asks for an update at its end.
+/// Runs a list, and an update at its end.
 fn run<S: Stage>(mut twins: Twins<S>, operations: &[Operation]) -> Twins<S> {
     for operation in operations.iter().chain([&Operation::Update]) {
         twins.apply(operation);
@@ -21,7 +21,7 @@ fn run<S: Stage>(mut twins: Twins<S>, operations: &[Operation]) -> Twins<S> {
     twins
 }
 
-/// Of jumps, in every bit.
+/// Jumps only, compared in every bit.
 fn jumps<S: Stage>(operations: &[Operation]) {
     let twins = run(Twins::<S>::to_the_bit(), operations);
     if operations.len() >= 10_000 {
@@ -31,7 +31,7 @@ fn jumps<S: Stage>(operations: &[Operation]) {
     }
 }
 
-/// Of everything, judged.
+/// All operations, compared with the oracle.
 fn everything<S: Stage>(operations: &[Operation]) {
     let twins = run(Twins::<S>::new(), operations);
     if operations.len() >= 10_000 {
@@ -40,13 +40,13 @@ fn everything<S: Stage>(operations: &[Operation]) {
         assert!(updates > 1500 && told.iter().all(|&count| count > 100), "{updates} updates, {tally:?}");
         assert!(tally.given_up > 50, "{tally:?}");
         assert!(twins.followers > 40, "clones and restored worlds: {}", twins.followers);
-        // The world is taken at its word in next to no pair: on a grid some are just a margin apart, or edgewise.
+        // The world's own answer is taken for hardly any pair: on a grid some are exactly a margin apart, or edge-on.
         assert!(tally.unsure * 500 < tally.pairs, "{tally:?}");
     }
 }
 
 proptest! {
-    // The seed is fixed: a failure here must be one everywhere. Widen the net with PROPTEST_CASES and another seed.
+    // The seed is fixed: a failure must fail everywhere. For a wider search use PROPTEST_CASES and another seed.
     #![proptest_config(ProptestConfig {
         cases: 600,
         rng_seed: RngSeed::Fixed(0x0A5D),
@@ -68,7 +68,7 @@ proptest! {
 }
 
 proptest! {
-    // One list each: what it takes is what it is about. A failure is cut down to a short one.
+    // One list each, since its length is what it tests. A failing list is shrunk to a short one.
     #![proptest_config(ProptestConfig {
         cases: 1,
         rng_seed: RngSeed::Fixed(0x0A5E),
@@ -77,7 +77,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// A long life: bodies come and go for ten thousand operations, so that every slot has had many tenants.
+    /// A long life: bodies come and go for ten thousand operations, so that every slot is reused many times.
     #[test]
     fn a_long_list_in_space(operations in prop::collection::vec(jump(), 10_000)) {
         jumps::<Volume>(&operations);
@@ -88,7 +88,7 @@ proptest! {
         jumps::<Plane>(&operations);
     }
 
-    /// The same with all that there is: ground, motions, bullets, moves by a hair, batches, clones and restored worlds.
+    /// The same with everything: ground, motions, bullets, tiny moves, batches, clones and restored worlds.
     #[test]
     fn a_long_list_of_everything_in_space(operations in prop::collection::vec(anything(), 10_000)) {
         everything::<Volume>(&operations);
@@ -100,7 +100,7 @@ proptest! {
     }
 }
 
-/// A clone of a world has the same future, and does not touch the original's.
+/// A clone of a world has the same future, and does not affect the original's.
 #[test]
 fn clones_have_equal_futures() {
     fn futures<S: Engine>(seed: u128) {

@@ -5,7 +5,7 @@ use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use rayon::ThreadPoolBuilder;
 
-/// Every output of some frames, bit for bit as text: `Debug` tells -0 from 0, and one NaN from a number.
+/// Every output of some frames, bit for bit as text: `Debug` distinguishes -0 from 0, and NaN from numbers.
 fn frames<S: Engine>(threads: usize, bodies: usize, frames: usize, room: f64) -> (Vec<String>, usize) {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     pool.install(|| {
@@ -48,7 +48,7 @@ fn crowded_rooms() {
     check::<Plane>(700, 4, 9.0);
 }
 
-/// So many bodies that their boxes, too, are made in parallel.
+/// So many bodies that their AABBs are computed in parallel, too.
 #[test]
 fn many_bodies() {
     check::<Volume>(9000, 2, 16.0);

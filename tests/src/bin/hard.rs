@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 #[derive(Parser)]
 #[command(name = "hard")]
 struct Cli {
-    /// Cases in all, shared out among the families; those with very many vertices get fewer.
+    /// Total number of cases, shared out among the families; those with very many vertices get fewer.
     #[arg(long, default_value_t = 1_000_000)]
     cases: usize,
-    /// Separations are judged on every so many-th case of a level, which takes far longer than yes or no.
+    /// Separations are judged on every k-th case of a level, since that takes far longer than overlap; this is k.
     #[arg(long, default_value_t = 10)]
     truth_every: usize,
-    /// Where `hard.json` and `hard.md` go.
+    /// The folder for `hard.json` and `hard.md`.
     #[arg(long, value_name = "DIR", default_value = "target/hard")]
     out: PathBuf,
     /// Only families whose title contains this.
@@ -29,7 +29,7 @@ struct Cli {
     /// The first seed of every family.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The day of the run, to be printed.
+    /// The date of the run, to be printed.
     #[arg(long)]
     date: Option<String>,
     /// Without parry3d.
@@ -42,7 +42,7 @@ struct Cli {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let cli = Cli::parse();
-    // Panics are counted, and ours are told with the offender.
+    // Panics are counted, and ours are reported with the case that caused them.
     std::panic::set_hook(Box::new(|_| {}));
     let wanted = |title: &str| title.contains(&cli.only);
     let in_space: Vec<_> = FAMILIES3.iter().filter(|family| wanted(&family.title())).collect();
@@ -94,7 +94,7 @@ fn write(cli: &Cli, rows: &[Row]) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The command, the machine and the day, as far as they are known.
+/// The command, the machine and the date, as far as they are known.
 fn how_made(cli: &Cli) -> Vec<String> {
     let Cli { cases, truth_every, only, seed, timed, .. } = cli;
     let only = if only.is_empty() { String::new() } else { format!(" --only {only}") };
@@ -107,7 +107,7 @@ fn how_made(cli: &Cli) -> Vec<String> {
     made
 }
 
-/// The processor by its name where the system tells it, and its threads.
+/// The processor's name where the system gives it, and the number of threads.
 fn machine() -> String {
     let told = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let name = told.lines().find_map(|line| line.strip_prefix("model name")?.split(": ").nth(1));

@@ -1,6 +1,6 @@
-//! What is handed on to a world or a body, in the same words in both dimensions.
+//! Methods that forward to a world or a body, the same in both dimensions.
 
-/// The methods of an `Engine` that read the same in both: worlds and bodies of either have methods of the same names.
+/// The methods of an `Engine` that read the same in both dimensions: worlds and bodies have methods of the same names.
 macro_rules! as_the_world_says {
     () => {
         fn insert(world: &mut World<Self>, body: Collider<Self>) -> Self::Key {

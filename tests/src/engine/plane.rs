@@ -67,7 +67,7 @@ impl Engine for Plane {
     fn random_body(random: &mut Random, reach: f64) -> Collider<Self> {
         let kite = [Vec2::ZERO, Vec2::X, Vec2::new(0.8, 0.7), Vec2::new(-0.2, 0.4)];
         let shape: Shape2 = match random.below(40) {
-            // The last row is the half-plane, which touches half of all others: too many in a large room.
+            // The last row is the half-plane, which touches half of all others: too many contacts in a large room.
             0 if reach < 2.0 || random.below(40) == 0 => {
                 KINDS2[KINDS2.len() - 1].1(&mut Clay::new(random, 0.7))
             }

@@ -81,7 +81,7 @@ impl Engine for Volume {
         let wedge =
             [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z, Vec3::new(0.6, 0.7, 0.2), Vec3::new(0.4, 0.1, -0.3)];
         let shape: Shape3 = match random.below(40) {
-            // The last row is the half-space, which touches half of all others: too many in a large room.
+            // The last row is the half-space, which touches half of all others: too many contacts in a large room.
             0 if reach < 2.0 || random.below(40) == 0 => {
                 KINDS3[KINDS3.len() - 1].1(&mut Clay::new(random, 0.7))
             }

@@ -1,21 +1,22 @@
 //! The distance of two hulls against a radius, exactly, by squares.
 //!
 //! ```text
-//! guess     nearest points in double-double (share)
+//! guess     closest points in double-double (share)
 //! apart     its axis n, cut to integers: gap along n positive, and its square above radius^2 n^2; over all points
 //! within    its weights, cut to integers: a difference of two points of the hulls, shorter than the radius
-//! else      the foot of the origin on some vertices' differences, by ratios of integers. It is the nearest there is
+//! else      the foot of the origin on some vertices' differences, by ratios of integers. It is the closest there is
 //!           exactly when it lies between them and no point of either hull is nearer along it; then its square decides
 //! ```
-//! Two closest points can be chosen in a vertex and a vertex, edge or triangle, or in two edges: differences of at
-//! most four vertices, three of which span the foot.
+//! Two closest points can be chosen in a vertex and a vertex, edge or triangle, or in two edges: differences of at most
+//! four vertices, three of which span the foot.
 
 use super::place::{Cores, Point, dot, minus, times};
 use super::share::{Guess, cut, furthest, least_far, share_point};
 use num_bigint::{BigInt, Sign};
 use std::cmp::Ordering;
 
-/// How the distance between the hulls compares with the radius. If they share a point it is less than any but zero.
+/// How the distance between the hulls compares with the radius. If they share a point it is less, unless the radius is
+/// 0.
 pub fn distance_to_radius(cores: &Cores, guess: &Guess) -> Ordering {
     if cores.radius.sign() == Sign::NoSign {
         return if share_point(cores, guess) { Ordering::Equal } else { Ordering::Greater };
@@ -84,7 +85,7 @@ fn compare_among(cores: &Cores, [of_a, of_b]: &[Vec<usize>; 2]) -> Option<Orderi
     })
 }
 
-/// The answer, if the foot of the origin on these differences lies between them and is the nearest point of all.
+/// The answer, if the foot of the origin on these differences lies between them and is the closest point of all.
 fn compare_foot(cores: &Cores, corners: &[[usize; 2]]) -> Option<Ordering> {
     let points: Vec<Point> = corners.iter().map(|&pair| difference(cores, pair)).collect();
     let mut shares = shares_of_foot(&points)?;
@@ -104,7 +105,7 @@ fn compare_foot(cores: &Cores, corners: &[[usize; 2]]) -> Option<Ordering> {
     (gap * whole >= squared).then(|| squared.cmp(&(&limit * &limit)))
 }
 
-/// What each of up to three points has in the foot of the origin on their affine hull, up to a common factor.
+/// The weights of up to three points in the foot of the origin on their affine hull, up to a common factor.
 fn shares_of_foot(points: &[Point]) -> Option<Vec<BigInt>> {
     match points {
         [_] => Some(vec![BigInt::from(1)]),

@@ -2,7 +2,7 @@
 //!
 //! - [`place`]: posed shapes as pieces with integer coordinates
 //! - [`simplex`]: linear programming without fractions, with a proof for either answer
-//! - [`share`]: whether two hulls share a point, by proposals that are checked
+//! - [`share`]: whether two hulls share a point, by guesses that are checked
 //! - [`distance`]: the squared distance of two hulls against a squared radius
 
 pub mod distance;

@@ -3,8 +3,8 @@
 //! ```text
 //! pose in space      x -> (M(q) x + |q|^2 p) / |q|^2          q in units that make it integer
 //! pose in the plane  x -> (2^k [c -s; s c] x + 2^k p) / 2^k
-//! part of a compound the one after the other; denominators multiply
-//! pair of pieces     A's coordinates times B's denominator and the other way round, seen from a point of A
+//! part of a compound one pose after the other; denominators multiply
+//! pair of pieces     A's coordinates times B's denominator and vice versa, relative to a point of A
 //! ```
 
 use crate::cores::segments;
@@ -38,7 +38,7 @@ pub enum Piece {
     },
 }
 
-/// Two rounded cores in one unit, seen from a point of A.
+/// Two rounded cores in one unit, relative to a point of A.
 #[derive(Clone, Debug)]
 pub struct Cores {
     /// The points of A.
@@ -112,7 +112,7 @@ fn round(vertices: Vec<Vec<f64>>, radius: f32, map: &Map, unit: i32) -> Piece {
 }
 
 fn half(normal: &[f64], map: &Map) -> Piece {
-    // Both kinds of matrices keep right angles, so that a normal turns as a direction does.
+    // Both kinds of matrices keep right angles, so that a normal rotates as a direction does.
     let normal = common_integers(normal);
     let turned = map.matrix.iter().map(|row| dot(row, &normal)).collect();
     Piece::Half { normal: turned, at: map.shift.clone(), denominator: map.denominator.clone() }
@@ -158,7 +158,7 @@ impl Map {
     }
 
     fn of_pose2(pose: &Pose2, unit: i32) -> Self {
-        // The stored matrix is meant as it stands: the integer that stands for one is its denominator.
+        // The stored matrix is used as it is: the integer that stands for 1 is its denominator.
         let entries = common_integers(&[pose.rotation().cos().into(), pose.rotation().sin().into(), 1.0]);
         let [c, s, one] = [0, 1, 2].map(|i: usize| entries[i].clone());
         let position = pose.position().to_array();
@@ -173,7 +173,7 @@ impl Map {
         self.matrix.iter().zip(&self.shift).map(|(row, shift)| dot(row, point) + shift).collect()
     }
 
-    /// This map of what `inner` makes.
+    /// The composition: `inner` first, then this map.
     fn after(&self, inner: &Self) -> Self {
         let dimension = self.shift.len();
         let column = |j: usize| inner.matrix.iter().map(|row| row[j].clone()).collect::<Point>();
@@ -190,10 +190,10 @@ impl Map {
 }
 
 impl Cores {
-    /// Two rounded pieces in one unit; the numbers are made as short as a power of two can make them.
+    /// Two rounded pieces in one unit; the numbers are made as short as dividing by a power of two can make them.
     pub fn new(a: (&[Point], &BigInt, &BigInt), b: (&[Point], &BigInt, &BigInt)) -> Self {
         let radius = a.2 + b.2;
-        // Bodies that are turned alike have one denominator already.
+        // Bodies with equal rotations have one denominator already.
         let (scale_a, scale_b, radius) = if a.1 == b.1 {
             (BigInt::from(1), BigInt::from(1), radius * a.1)
         } else {

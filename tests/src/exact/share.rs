@@ -1,14 +1,14 @@
 //! Whether two hulls share a point: guesses in double-double, proofs in integers.
 //!
 //! ```text
-//! guess    the nearest points of the two hulls, and the axis between them, in double-double
-//! apart    the axis, cut to integers, parts every point of A from every point of B; checked for all of them
-//! shared   or else: the few points that span the guess form a small linear program, solved over integers
+//! guess    the closest points of the two hulls, and the axis between them, in double-double
+//! apart    the axis, cut to integers, separates every point of A from every point of B; checked for all of them
+//! shared   otherwise: the few points that span the guess form a small linear program, solved over integers
 //!            it is feasible    -> hulls of subsets share a point, and so do the hulls
-//!            it is not         -> its proof is an axis; where that parts all points: apart. Else the points that it
-//!                                 is most wrong about join the program, which grows at every step, and so ends
+//!            it is not         -> its proof is an axis; if that separates all points: apart. Else the points that
+//!                                 violate it most join the program, which grows at every step, and so ends
 //! ```
-//! Nothing rests on the guesses but time.
+//! The guesses affect only the time.
 
 use super::place::{Cores, Point, dot};
 use super::simplex::{parting, refutation};
@@ -16,14 +16,14 @@ use crate::precise::dd::{Dd, Dd3};
 use crate::precise::nearest::{Cloud, Nearest, nearest};
 use num_bigint::{BigInt, Sign};
 
-/// Two cores, about one unit in size, in double-double.
+/// Two cores, scaled to about one unit in size, in double-double.
 #[derive(Clone, Debug)]
 pub struct Guess {
     /// The points of A.
     pub a: Cloud,
     /// The points of B.
     pub b: Cloud,
-    /// What lies between them.
+    /// The closest points and the axis between them.
     pub found: Nearest,
 }
 
@@ -51,7 +51,7 @@ impl Guess {
     }
 }
 
-/// An integer of at most so many bits, times 2^-`bits`, rounded.
+/// An integer of at most `bits` bits, times 2^-`bits`, rounded.
 pub fn as_dd(value: &BigInt, bits: i64) -> Dd {
     let digit = |(i, digit): (usize, u64)| {
         let scale = power_of_two(64 * i as i64 - bits);
@@ -64,12 +64,12 @@ pub fn as_dd(value: &BigInt, bits: i64) -> Dd {
     if value.sign() == Sign::Minus { -magnitude } else { magnitude }
 }
 
-/// 2 to a power that is at most 63; zero below f64's range.
+/// 2 to a power of at most 63; zero below f64's range.
 fn power_of_two(exponent: i64) -> f64 {
     if exponent < -1022 { 0.0 } else { f64::from_bits(((exponent + 1023) as u64) << 52) }
 }
 
-/// A number of at most about one, times 2^[`AXIS_BITS`], cut to an integer.
+/// A number of magnitude about 1 at most, times 2^[`AXIS_BITS`], cut to an integer.
 fn as_integer(value: Dd) -> BigInt {
     value.parts().into_iter().map(|part| cut(part, AXIS_BITS)).sum()
 }
@@ -82,13 +82,13 @@ pub fn cut(value: f64, bits: i32) -> BigInt {
     if shift >= 0 { mantissa << shift as usize } else { mantissa >> shift.unsigned_abs() as usize }
 }
 
-/// The furthest of some points along an axis, by index, and how far.
+/// The furthest of some points along an axis: its index, and its projection.
 pub fn furthest(points: &[Point], axis: &[BigInt]) -> (usize, BigInt) {
     let along = points.iter().map(|p| dot(p, axis)).enumerate();
     along.max_by(|p, q| p.1.cmp(&q.1)).expect("a core has points")
 }
 
-/// The nearest of some points along an axis, by index, and how far.
+/// The nearest of some points along an axis: its index, and its projection.
 pub fn least_far(points: &[Point], axis: &[BigInt]) -> (usize, BigInt) {
     let along = points.iter().map(|p| dot(p, axis)).enumerate();
     along.min_by(|p, q| p.1.cmp(&q.1)).expect("a core has points")
@@ -113,13 +113,13 @@ pub fn share_point(cores: &Cores, guess: &Guess) -> bool {
         if on_a < on_b {
             return false;
         }
-        // At least one of them is new: the program parted those that it knew.
+        // At least one of them is new: the program separated those that it had.
         from_a.extend((on_a > parting.of_a).then_some(i));
         from_b.extend((on_b < parting.of_b).then_some(j));
     }
 }
 
-/// The points that span the guess, and those all but beside them along its axis.
+/// The points that span the guess, and those almost level with them along its axis.
 fn first_program(guess: &Guess) -> (Vec<usize>, Vec<usize>) {
     let mut from_a: Vec<usize> = guess.found.corners.iter().map(|corner| corner[0]).collect();
     let mut from_b: Vec<usize> = guess.found.corners.iter().map(|corner| corner[1]).collect();
@@ -135,15 +135,16 @@ fn first_program(guess: &Guess) -> (Vec<usize>, Vec<usize>) {
     (from_a, from_b)
 }
 
-/// Whether any small translation leaves two hulls overlapping: whether the origin is inside the set of all differences.
+/// Whether two hulls still overlap after any sufficiently small translation: whether the origin is in the interior of
+/// the set of all differences.
 ///
-/// It is, exactly when differences of points of the hulls, made longer or shorter, reach in all directions; and they do
-/// when they reach along the axes and along the one opposite to their sum. Four small linear programs.
+/// It is, exactly when multiples of differences of points of the hulls reach in all directions; and they do when they
+/// reach along the axes and along the direction opposite to their sum. Four small linear programs.
 pub fn share_inside(cores: &Cores) -> bool {
     let dimension = cores.a[0].len();
     (0..=dimension).all(|k| {
         let goal: Point = (0..dimension).map(|i| BigInt::from(u8::from(k == dimension || i == k))).collect();
-        // A goal must not be negative: the last direction is asked of everything turned round.
+        // A goal must not be negative: for the last direction, everything is negated.
         let turn = |point: &Point, weight: i8| -> Point {
             let sign = BigInt::from(if k == dimension { -weight } else { weight });
             point.iter().map(|c| c * &sign).chain([BigInt::from(weight)]).collect()

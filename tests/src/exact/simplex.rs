@@ -1,8 +1,8 @@
 //! Linear programming over integers: some x >= 0 with `columns * x = goal`, or the proof that there is none.
 //!
 //! Phase one of the simplex method from artificial variables, by Bland's rule (1977), which cannot cycle on degenerate
-//! touching cases. Pivots keep integers, as in Bareiss (1968): every division is exact. The artificial variables'
-//! columns are all that is carried along, and never enter again; what stands below them in the end is the proof.
+//! touching cases. Pivots keep integers, as in Bareiss (1968): every division is exact. Only the artificial variables'
+//! columns are carried along, and they never enter again; what is left below them at the end is the proof.
 
 use super::place::{Point, dot, minus};
 use num_bigint::{BigInt, Sign};
@@ -23,11 +23,11 @@ pub fn hulls_share_point(a: &[Point], b: &[Point]) -> bool {
     parting(a, b).is_none()
 }
 
-/// What parts the convex hulls of two sets of integer points; `None` if they share a point: weights >= 0, summing
+/// What separates the convex hulls of two sets of integer points; `None` if they share a point: weights >= 0, summing
 /// to 1 on each side, whose two weighted means are the same.
 pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
     let (zero, one) = (BigInt::ZERO, BigInt::from(1));
-    // Seen from the first point of A the numbers are as short as they can be.
+    // Relative to the first point of A the numbers are as short as they can be.
     let origin = &a[0];
     let column = |point: &Point, of_a: bool| -> Point {
         let seen = if of_a { minus(point, origin) } else { minus(origin, point) };
@@ -49,9 +49,9 @@ pub fn parting(a: &[Point], b: &[Point]) -> Option<Parting> {
 /// `columns * x = goal`. One or the other exists (Farkas, 1902).
 pub fn refutation(columns: &[Point], goal: &[BigInt]) -> Option<Point> {
     let (width, height) = (columns.len(), goal.len());
-    // What stands below the artificial columns and the right side, over a common denominator; of the others only what
-    // is asked for is worked out (the revised method). The last row is the infeasibility, to be brought to zero, as a
-    // sum of the others; what multiplies each of them stands there.
+    // What stands below the artificial columns and the right-hand side, over a common denominator; other columns are
+    // computed only when needed (the revised method). The last row is the infeasibility, to be brought to zero, as a
+    // sum of the others; the factor of each of them stands there.
     let unit = |row: usize| (0..height).map(move |i| BigInt::from(u8::from(i == row || row == height)));
     let sum = goal.iter().sum();
     let right_sides = goal.iter().chain([&sum]);
@@ -66,7 +66,7 @@ pub fn refutation(columns: &[Point], goal: &[BigInt]) -> Option<Point> {
             return Some(multipliers.to_vec());
         };
         let column: Point = rows.iter().map(|row| dot(&row[..height], &columns[entering])).collect();
-        // The infeasibility cannot fall without end, so that something bounds whatever lowers it.
+        // The infeasibility cannot fall without bound, so some row bounds any variable that lowers it.
         let leaving = leaving_row(&rows, &column, &basis).expect("bounded");
         denominator = pivot(&mut rows, &column, leaving, &denominator);
         basis[leaving] = entering;

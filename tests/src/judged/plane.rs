@@ -1,4 +1,4 @@
-//! The judge in the plane.
+//! The oracle in the plane.
 
 use super::{Judged, Part, Place};
 use crate::cores::{Piece2, pieces2, segments, separation_of2};
@@ -16,7 +16,7 @@ impl Judged for Plane {
             Shape2::Chain(chain) => segments(chain)
                 .map(|segment| {
                     let [from, to] = [0, 1].map(|end| segment.core().vertices()[end].as_dvec2());
-                    // One-sided chains are seen from the right of the way.
+                    // The front of a one-sided chain is on its right.
                     let normal = -(to - from).perp().normalize();
                     let front = chain.is_one_sided().then_some([normal.extend(0.0), from.extend(0.0)]);
                     Part { front, ..part(segment, None) }

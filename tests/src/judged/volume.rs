@@ -1,4 +1,4 @@
-//! The judge in space.
+//! The oracle in space.
 
 use super::{Judged, Part, Place};
 use crate::cores::{Piece3, pieces3, separation_of3, turned};

@@ -1,4 +1,4 @@
-//! What this frame's motions may bring, by looking at some moments of them.
+//! What this frame's motions may bring, from the poses at some moments of them.
 
 use super::{BAND, Record, Slots, Tenant, margin_of, record_of};
 use crate::engine::slot_of;
@@ -7,27 +7,27 @@ use asunder::World;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Into so many pieces a motion is cut.
+/// Number of pieces into which a motion is cut.
 const MOMENTS: u32 = 16;
 
-/// In metres. Rotations between two others are rounded to f32, which moves a point three metres away by 4e-7; and casts
-/// stop within some 1e-6 of their sizes.
+/// In metres. Interpolated rotations are rounded to f32, which moves a point three metres away by 4e-7; and casts stop
+/// within some 1e-6 of their sizes.
 const LOOSE: f64 = 1e-5;
 
-/// How much wider than the plain box a world's may be, in metres: corners are rounded outwards to f32, in a room of a
+/// How much wider than the plain AABB a world's may be, in metres: corners are rounded outwards to f32, in a room of a
 /// few metres.
 const ROUNDED_OUT: f64 = 1e-5;
 
-/// Bodies that move, at every moment; and pairs of which one does.
+/// Moving bodies at every moment, and pairs of which one moves.
 pub(super) struct Ahead<S: Judged> {
     paths: BTreeMap<u32, Vec<Stand<S>>>,
     seen: BTreeMap<Slots, Seen>,
 }
 
-/// What was seen of a pair.
+/// Separations of a pair over time.
 struct Seen {
     start: Word,
-    /// Separations at the moments after the start, up to what matters; lower bounds beyond.
+    /// Separations at the moments after the start, up to what matters; lower bounds beyond that.
     separations: Vec<f64>,
     is_one_sided: bool,
 }
@@ -43,8 +43,8 @@ impl<S: Judged> Ahead<S> {
         Self { paths: going.map(path).collect(), seen: BTreeMap::new() }
     }
 
-    /// Whether the boxes around two bodies overlap, throughout their motions and grown by their margins; nothing where
-    /// the world may know better, which makes its boxes a little wider.
+    /// Whether the AABBs around two bodies overlap, swept over their motions and grown by their margins; `None` where
+    /// the world may decide, which makes its boxes slightly wider.
     pub(super) fn boxes_overlap(&self, slots: Slots, [a, b]: [&Tenant<S>; 2]) -> Option<bool> {
         let margin = margin_of([a, b]);
         let boxes = [self.corners(slots.0, a), self.corners(slots.1, b)];
@@ -55,8 +55,7 @@ impl<S: Judged> Ahead<S> {
             return Some(said);
         }
         let wider = |tenant: &Tenant<S>| {
-            // Boxes of what turns are as wide as all that it may sweep; those of ground may be those of its own box,
-            // turned.
+            // The box of a turning body contains all that it may sweep; that of ground may be its local box, rotated.
             let loose =
                 if S::parts(S::shape_of(&tenant.body)).len() > 1 { 2.0 * tenant.stand.reach() } else { 0.0 };
             loose + turned_by(tenant) + ROUNDED_OUT
@@ -68,7 +67,7 @@ impl<S: Judged> Ahead<S> {
         }
     }
 
-    /// Looks at a pair at every moment, if it moves.
+    /// Records a pair's separations at every moment, if it moves.
     pub(super) fn look(&mut self, slots: Slots, [a, b]: [&Tenant<S>; 2], start: Word) {
         if self.is_still(slots) {
             return;
@@ -97,14 +96,14 @@ impl<S: Judged> Ahead<S> {
         let travel = |tenant: &Tenant<S>| tenant.motion.as_ref().map_or(DVec3::ZERO, S::displacement);
         let most = (travel(a) - travel(b)).length() + turned_by(a) + turned_by(b);
         let may_come = word.separation <= margin + most + BAND;
-        // Ground with a front tells nothing of what is behind it at the start, though it may come round.
+        // One-sided ground has no contact with what is behind it at the start, though a body may come round.
         let must_come = comes && !seen.is_one_sided && !word.is_doubtful;
-        // Further away than the judge was asked about until now.
+        // Further away than the oracle has been asked about so far.
         let exactly = || a.stand.meet(&b.stand, Question { within: f64::INFINITY, has_sides: true });
         (must_come || may_come && is_told).then(|| Record { word: exactly(), ..record })
     }
 
-    /// Fails unless impacts are those that the moments show, of pairs that may meet; gives their number.
+    /// Asserts that impacts are those that the moments show, for pairs that may meet; returns their number.
     pub(super) fn check_impacts(&self, world: &World<S>, bodies: &BTreeMap<u32, Tenant<S>>) -> usize {
         let hits: Vec<_> = S::impacts(world)
             .iter()
@@ -121,7 +120,7 @@ impl<S: Judged> Ahead<S> {
         for &(bullet, fraction, other, sensor, error) in &hits {
             let seen = &self.seen[&(bullet.min(other), bullet.max(other))];
             let [a, b] = [bullet, other].map(|slot| &bodies[&slot]);
-            // Of bodies of several parts, what is touched is not all that there is to meet.
+            // A body of several parts may still hit others than those it touches.
             let is_apart = !seen.start.overlapping || seen.start.is_doubtful;
             let has_more = [a, b].iter().any(|tenant| S::parts(S::shape_of(&tenant.body)).len() > 1);
             assert!(a.body.is_bullet() && (is_apart || has_more));
@@ -158,8 +157,8 @@ impl<S: Judged> Ahead<S> {
         hits.len()
     }
 
-    /// Whether a bullet may go over another by what it touches, as over the next tile of a floor: it touches a third
-    /// that is solid, and goes into the other by no more than half of what it is thick.
+    /// Whether a bullet may pass over another body that is level with what it touches, as over the next tile of a
+    /// floor: it touches a third, solid body, and goes into the other by no more than half of its thickness.
     fn is_led_over(&self, bodies: &BTreeMap<u32, Tenant<S>>, bullet: u32, other: u32) -> bool {
         let is_solid = |slot: &u32| !bodies[slot].body.is_sensor();
         let stands_on = |(&(a, b), seen): (&Slots, &Seen)| {
@@ -171,7 +170,7 @@ impl<S: Judged> Ahead<S> {
         let most = 0.5 * bodies[&bullet].stand.reach() + LOOSE;
         is_solid(&bullet)
             && is_solid(&other)
-            // What neither moves was not looked at.
+            // Pairs of which neither moves were not recorded.
             && (bodies[&bullet].motion.is_none() || self.seen.iter().any(stands_on))
             && seen.separations.iter().all(|&separation| separation >= -most)
     }
@@ -192,13 +191,14 @@ impl<S: Judged> Ahead<S> {
 }
 
 impl Seen {
-    /// When, at the latest, the two must have met that were apart at the start, the first of them being a bullet.
+    /// The latest time by which two bodies that were apart at the start must have met; the first is a bullet.
     fn first_touch<S: Judged>(&self, [bullet, other]: [&Tenant<S>; 2]) -> Option<f64> {
         if self.start.overlapping {
             return None;
         }
         if self.is_one_sided {
-            // Which way it is passed counts, not where the moments find it: as the pair alone says.
+            // The side from which it is passed counts, whichever the moments happen to show: the pair's own query
+            // decides.
             let still = S::shift(0.0);
             let motions = [bullet, other].map(|tenant| tenant.motion.as_ref().unwrap_or(&still));
             let touch = S::first_touch((&bullet.body, motions[0]), (&other.body, motions[1]));
@@ -209,16 +209,16 @@ impl Seen {
     }
 }
 
-/// The share of a motion that is done at a moment.
+/// The fraction of a motion at a moment.
 fn moment(number: u32) -> f64 {
     f64::from(number) / f64::from(MOMENTS)
 }
 
-/// How far a turn may bring any point of a body, at the most that may be reckoned. A world knows of a turn no more than
-/// its top speed, which is four thirds of the angle or, in the plane, up to half more, and the angle is at most pi / 2
-/// of the chord; and no point comes further than across.
+/// An upper bound of how far a rotation may move any point of a body in a world's estimate. A world knows only the top
+/// speed of a rotation, which is four thirds of the angle or, in the plane, up to half more; the angle is at most pi /
+/// 2 of the chord; and no point moves further than the diameter.
 fn turned_by<S: Judged>(tenant: &Tenant<S>) -> f64 {
     let chord = tenant.motion.map_or(0.0, |motion| S::chord(&motion, &S::pose_of(&tenant.body)));
-    // Of the reach it knows the centre's distance and the radius around it.
+    // Instead of the reach it knows the centre's distance and the radius around the centre.
     if chord > 0.0 { (2.4 * chord).min(2.0) * 3.0 * tenant.stand.reach() } else { 0.0 }
 }

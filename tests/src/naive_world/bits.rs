@@ -1,5 +1,4 @@
-//! Manifolds in every bit: those of the narrow phase asked about each pair alone, with what it learnt of it in the last
-//! update.
+//! Manifolds in every bit: those of the narrow phase for each pair alone, with the pair's hint of the last update.
 
 use super::{Slots, Tenant};
 use crate::engine::Met;
@@ -10,7 +9,7 @@ use std::collections::BTreeMap;
 /// Hints by the slots of two bodies, with their keys.
 type Hints<S> = BTreeMap<Slots, ((<S as asunder::Space>::Key, <S as asunder::Space>::Key), Hint)>;
 
-/// What was learnt of each pair whose boxes overlap.
+/// The hints of each pair whose AABBs overlap.
 #[derive(Clone, Debug)]
 pub(super) struct Bits<S: Judged> {
     last: Hints<S>,
@@ -34,7 +33,7 @@ impl<S: Judged> Bits<S> {
         met
     }
 
-    /// An update is over.
+    /// Ends an update.
     pub(super) fn turned_over(self) -> Self {
         Self { last: self.now, now: Hints::<S>::new() }
     }

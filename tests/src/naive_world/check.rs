@@ -1,15 +1,15 @@
-//! Whether a world says what the model says.
+//! Whether a world reports what the model does.
 
 use super::{NaiveWorld, Record};
 use crate::engine::slot_of;
 use crate::judged::Judged;
 use asunder::{Collider, Contact, World};
 
-/// In metres: how far the judge's own f64 may be off, some 1e-15 of a few metres over the sine between two edges.
+/// In metres: how far the oracle's own f64 may be off, some 1e-15 of a few metres over the sine between two edges.
 const ROUNDING: f64 = 1e-10;
 
 impl<S: Judged> NaiveWorld<S> {
-    /// Fails unless the world, just updated, says in every list and look-up what the model says.
+    /// Asserts that the world, just updated, agrees with the model in every list and look-up.
     pub fn check(&self, world: &World<S>) {
         self.check_lists(world);
         self.check_lookups(world);
@@ -56,7 +56,7 @@ impl<S: Judged> NaiveWorld<S> {
         [a, b].map(|key| self.bodies.get(&slot_of(key)).map(|tenant| &tenant.body))
     }
 
-    /// Where an update is given up, there may be contacts of bodies that are gone.
+    /// After an update that was given up, there may be contacts of removed bodies.
     fn are_fresh(&self, (a, b): (S::Key, S::Key)) -> bool {
         self.is_fresh(a) && self.is_fresh(b)
     }
@@ -71,7 +71,7 @@ impl<S: Judged> NaiveWorld<S> {
             assert_eq!((found.is_fixed(), found.is_bullet()), (body.is_fixed(), body.is_bullet()));
             assert_eq!(found.is_enabled(), !tenant.is_disabled);
             assert_eq!(found.is_asleep(), tenant.is_asleep);
-            // In order of the other body's slot: lower slots first, which is where this one comes second.
+            // In order of the other body's slot: lower slots first, where this body comes second.
             let mut others: Vec<_> = self
                 .records
                 .iter()
@@ -100,7 +100,7 @@ impl<S: Judged> NaiveWorld<S> {
     }
 }
 
-/// The least separation of all manifolds is the judge's, within their errors.
+/// How a contact's manifolds disagree with the oracle: their least separation must be its, within their errors.
 fn wrong_with<S: Judged>(
     contact: &Contact<'_, S::Key, S::Manifold>,
     record: &Record<S>,
@@ -113,8 +113,8 @@ fn wrong_with<S: Judged>(
         return (!manifolds.is_empty()).then_some("a sensor has no manifolds");
     }
     let truth = record.word.separation;
-    // Half-spaces may overlap without end, and have no manifold then. On ground, depths are along the normals of its
-    // surface, and have judges of their own.
+    // Half-spaces may overlap without bound, and then have no manifold. On ground, depths are along its normals, and
+    // are tested elsewhere.
     let is_surface = record.on_ground && record.overlapping;
     if record.word.is_doubtful || truth == f64::NEG_INFINITY || is_surface {
         return None;
@@ -128,7 +128,7 @@ fn wrong_with<S: Judged>(
     if told.iter().any(|[separation, error]| separation + error < truth - ROUNDING) {
         return Some("nearer than it is");
     }
-    // Of ground with a front the nearest piece may be one that only its neighbours hide.
+    // For one-sided ground the nearest piece may be one that is hidden by its neighbours.
     let is_whole = record.most == usize::MAX && !record.is_one_sided;
     if is_whole && separation - error > truth + ROUNDING {
         return Some("further than it is");

@@ -1,9 +1,9 @@
 //! Double-double numbers: an unevaluated sum of two f64, about 106 bits.
 //!
 //! Sums and products of two f64 are split into a result and its exact rounding error (Dekker, "A floating-point
-//! technique for extending the available precision", 1971; Knuth's two-sum); no fused operations. Every operation
-//! here is within 2^-102 of the truth, relatively, as long as nothing comes near the limits of f64's exponent
-//! (`tests/suite/oracles.rs` holds them against big integers).
+//! technique for extending the available precision", 1971; Knuth's two-sum); no fused operations. Every operation here
+//! has a relative error below 2^-102, as long as nothing comes near the limits of f64's exponent
+//! (`tests/suite/oracles.rs` compares them with big integers).
 
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -79,12 +79,12 @@ impl Dd {
         [self.high, self.low]
     }
 
-    /// The square root; of a negative number, zero.
+    /// The square root; zero for a negative number.
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::ZERO;
         }
-        // One step of Newton's from the f64 root doubles its digits.
+        // One Newton step from the f64 root doubles its digits.
         let root = Self::from(self.high.sqrt());
         root + (self - root * root) / (root + root)
     }
@@ -210,9 +210,9 @@ impl Dd3 {
         self.dot(self).sqrt()
     }
 
-    /// The vector at unit length; `None` of zero.
+    /// The vector at unit length; `None` for zero.
     pub fn try_normalize(self) -> Option<Self> {
-        // Brought near to one first, by a power of two: squares of short vectors would drown.
+        // Scaled near one first, by a power of two: squares of short vectors would underflow.
         let largest = self.to_f64().abs().max_element();
         if largest == 0.0 {
             return None;

@@ -1,18 +1,18 @@
 //! How deep two convex hulls overlap: the best of all axes that can decide it, each by full projection.
 //!
 //! ```text
-//! Two hulls overlap where the set D of all differences of their points holds the origin, and the separation is minus
-//! the distance from the origin to the nearest facet of D. A facet of a Minkowski sum is a facet of A and a vertex of B,
-//! the other way round, or an edge of each (or facets of both, or a facet and an edge, whose normal is that facet's).
-//! So: every facet normal of A and, turned round, of B; every cross product of edges, both ways.
-//!   f64     the gap along each; a pair of edges only if the vertices beside them allow that it supports both
+//! Two hulls overlap where the set D of all differences of their points contains the origin, and the separation is
+//! minus the distance from the origin to the nearest facet of D. A facet of a Minkowski sum is a facet of A and a
+//! vertex of B, or vice versa, or an edge of each (or facets of both, or a facet and an edge, whose normal is that
+//! facet's). So: every facet normal of A and, negated, of B; every cross product of edges, both ways.
+//!   f64     the gap along each; a pair of edges only if the vertices beside them allow both edges to support the axis
 //!   dd      all that come within 1e-11 of the best, again
 //! ```
-//! Any axis gives a true lower bound, so that too many do no harm. None is missing: facets are exact, and what f64
+//! Any axis gives a true lower bound, so that extra ones do no harm. None is missing: facets are exact, and what f64
 //! leaves out is certain to lose. The axis of two edges at an angle t is known to about 1e-30 / t, and without it only
-//! a sliver of a facet would be left out whose width is t of the edges: no more than 1e-15 can be lost, at t = 1e-15,
-//! and next to nothing where edges are exactly parallel. Where neither hull has an inside D may be flat, and axes
-//! across it are added, along which the gap is 0.
+//! a sliver of a facet would be missed whose width is t of the edges: no more than 1e-15 can be lost, at t = 1e-15, and
+//! next to nothing where edges are exactly parallel. Where neither hull has an interior D may be flat, and axes across
+//! it are added, along which the gap is 0.
 
 use super::dd::{Dd, Dd3};
 use super::exactly::exact_cross;
@@ -20,24 +20,24 @@ use super::facets::Polyhedron;
 use super::nearest::{Cloud, gap_along};
 use glam::DVec3;
 
-/// A hull where it is. Directions are taken from stored points, whose differences are exact: a facet of 1e-45 m would
-/// vanish beside others.
+/// A posed hull. Directions are taken from stored points, whose differences are exact: a facet of 1e-45 m would vanish
+/// next to larger coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
     /// The points.
     pub cloud: &'a Cloud,
-    /// The same as they are stored.
+    /// The same points as stored.
     pub stored: &'a [DVec3],
     /// The images of the coordinate axes.
     pub turn: &'a [Dd3; 3],
 }
 
-/// A hull in space, and how its points are joined.
+/// A hull in space with its facets and edges.
 #[derive(Clone, Copy, Debug)]
 pub struct Body<'a> {
     /// The hull.
     pub hull: Hull<'a>,
-    /// How they are joined.
+    /// Its facets and edges.
     pub form: &'a Polyhedron,
 }
 
@@ -50,26 +50,26 @@ pub struct Deepest {
     pub axis: Dd3,
     /// Whether no other axis is as good, within 1e-13 of the size.
     pub is_unique: bool,
-    /// What the worst axis may have lost by its own rounding, as a share of the size.
+    /// What may be lost by the rounding of the worst axis, as a share of the size.
     pub regret: f64,
 }
 
 /// An axis and the gap along it in f64.
 type Rough = (f64, Dd3);
 
-/// Share of the size by which f64 may be wrong of a gap, generously.
+/// A generous bound on the error of a gap in f64, as a share of the size.
 const ROUGH: f64 = 1e-11;
 
-/// What double-double knows of a vector between two points, relative to the largest coordinates.
+/// The error of a vector between two points in double-double, relative to the largest coordinates.
 const ROUNDING: f64 = 1e-30;
 
 impl Hull<'_> {
-    /// From one point to another, not yet turned.
+    /// From one point to another, not yet rotated.
     fn arm(&self, from: usize, to: usize) -> Dd3 {
         Dd3::difference(self.stored[to], self.stored[from])
     }
 
-    /// A direction as it is stored, turned to unit length.
+    /// A stored direction, rotated and normalised.
     fn turned(&self, v: Dd3) -> Option<Dd3> {
         let v = v.try_normalize()?;
         (self.turn[0] * v.x + self.turn[1] * v.y + self.turn[2] * v.z).try_normalize()
@@ -88,7 +88,7 @@ pub fn deepest3(a: Body, b: Body) -> Deepest {
     best_of(a.hull.cloud, b.hull.cloud, &rough, regret)
 }
 
-/// The best of axes whose rough gaps are known.
+/// The best of some axes with known f64 gaps.
 pub fn best_of(a: &Cloud, b: &Cloud, rough: &[Rough], regret: f64) -> Deepest {
     let size = a.reach() + b.reach();
     let most = rough.iter().map(|axis| axis.0).fold(f64::NEG_INFINITY, f64::max);
@@ -114,7 +114,7 @@ fn facet_axes(body: Body) -> Vec<Dd3> {
         let off = (1..facet.len()).filter(|&i| i != far).max_by(|&i, &j| wide(i).total_cmp(&wide(j)))?;
         let (second, third) = (far.min(off), far.max(off));
         let cross = arm(second).cross(arm(third));
-        // A sliver's would keep too few digits: that of a box 1e-45 m thick, none.
+        // The normal of a sliver would keep too few digits; that of a box 1e-45 m thick, none.
         let is_short = cross.to_f64().length() < 1e-4 * rough(far).length() * rough(off).length();
         hull.turned(if is_short {
             exact_cross(hull.stored, [facet[0], facet[second], facet[third]])
@@ -125,7 +125,7 @@ fn facet_axes(body: Body) -> Vec<Dd3> {
     body.form.facets.iter().filter_map(normal).collect()
 }
 
-/// Axes across what is flat: with them a set of differences without an inside has the gap 0.
+/// Axes across flat bodies: with them, a set of differences without an interior has the gap 0.
 fn flat_axes(a: Body, b: Body) -> Vec<Dd3> {
     let units = DVec3::AXES.map(Dd3::from);
     let mut axes = units.to_vec();
@@ -138,7 +138,7 @@ fn flat_axes(a: Body, b: Body) -> Vec<Dd3> {
     axes.into_iter().flat_map(|axis| [axis, -axis]).collect()
 }
 
-/// Adds the axis of every pair of edges that can support both hulls; the worst of what their errors can cost.
+/// Adds the axis of every pair of edges that can support both hulls; returns the most that their errors can cost.
 fn edge_axes(a: Body, b: Body, rough: &mut Vec<Rough>) -> f64 {
     let along = |body: Body| -> Vec<Dd3> {
         let ends = body.form.edges.iter().map(|edge| edge.ends);
@@ -150,7 +150,7 @@ fn edge_axes(a: Body, b: Body, rough: &mut Vec<Rough>) -> f64 {
     for i in 0..of_a.len() {
         for j in 0..of_b.len() {
             let mut cross = rough_a[i].cross(rough_b[j]);
-            // A short cross product of f64 directions points anywhere: it is taken in double-double.
+            // A short cross product of f64 directions has no reliable direction: it is recomputed in double-double.
             if cross.length_squared() < 1e-6 {
                 let exact = of_a[i].cross(of_b[j]);
                 let length = exact.to_f64().length();
@@ -174,7 +174,7 @@ fn edge_axes(a: Body, b: Body, rough: &mut Vec<Rough>) -> f64 {
     regret
 }
 
-/// Whether the vertices beside an edge allow that it is the furthest along an axis that it is at right angles to.
+/// Whether the vertices beside an edge allow it to be the furthest feature along an axis perpendicular to it.
 fn supports(body: Body, edge: usize, axis: DVec3) -> bool {
     let points = body.hull.cloud.rough();
     let edge = &body.form.edges[edge];
@@ -208,8 +208,8 @@ pub fn deepest2(a: (Hull, &[usize]), b: (Hull, &[usize])) -> Deepest {
     best_of(a.0.cloud, b.0.cloud, &rough, 0.0)
 }
 
-/// Points in runs with a ball around each: the furthest along an axis is found without looking at all of them. It rests
-/// on no order; a good one makes it fast.
+/// Points in runs with a bounding ball for each, to find the furthest along an axis without testing all of them. Any
+/// order is correct; a good one makes it fast.
 struct Blocks {
     points: Vec<DVec3>,
     /// Centre and radius.

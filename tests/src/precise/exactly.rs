@@ -1,4 +1,4 @@
-//! On which side of a line or plane a point lies, and which way a triangle looks: exactly, for f32 coordinates.
+//! The side of a line or plane on which a point lies, and the orientation of a triangle: exactly, for f32 coordinates.
 
 use super::dd::Dd3;
 use crate::exact::distance::cross;
@@ -9,8 +9,8 @@ use glam::DVec3;
 use num_bigint::{BigInt, Sign};
 use std::cmp::Ordering;
 
-/// Which side of the plane through three points another lies on, exactly; greater where the three turn
-/// counter-clockwise, seen from there.
+/// The side of the plane through three points on which another lies, exactly; greater where the three are
+/// counter-clockwise seen from it.
 pub fn side_of_plane(points: &[DVec3], [i, j, k]: [usize; 3], l: usize) -> Ordering {
     let [u, v, w] = [j, k, l].map(|p| points[p] - points[i]);
     let det = u.cross(v).dot(w);
@@ -24,7 +24,7 @@ pub fn side_of_plane(points: &[DVec3], [i, j, k]: [usize; 3], l: usize) -> Order
     sign_order(&(minor(1, 2) * arm(3, 0) + minor(2, 0) * arm(3, 1) + minor(0, 1) * arm(3, 2)))
 }
 
-/// How three points turn, seen along an axis: greater where counter-clockwise about it.
+/// The orientation of three points projected along an axis: greater where counter-clockwise about it.
 pub fn side_of_line(points: &[DVec3], corners: [usize; 3], axis: usize) -> Ordering {
     let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
     let [i, j, k] = corners;
@@ -39,7 +39,7 @@ pub fn side_of_line(points: &[DVec3], corners: [usize; 3], axis: usize) -> Order
     sign_order(&(arm(1, 0) * arm(2, 1) - arm(1, 1) * arm(2, 0)))
 }
 
-/// The normal of the triangle of three points, of any one length, right to the last digits of a double-double.
+/// The normal of the triangle of three points, of any length, correct to the last digits of a double-double.
 pub fn exact_cross(points: &[DVec3], corners: [usize; 3]) -> Dd3 {
     let integers = common_integers(&corners.map(|p| points[p].to_array()).concat());
     let arm = |row: usize| minus(&integers[3 * row..3 * row + 3], &integers[..3]);

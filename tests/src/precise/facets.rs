@@ -1,12 +1,12 @@
 //! Facets and edges of a convex hull from its vertices, exactly, and fast enough for hundreds of them.
 //!
 //! ```text
-//! first facet  the least vertex and two others that have no vertex on one side          (all pairs are tried)
-//! next         a facet's edge u -> v, turned: of all planes through it, the one with no vertex beyond it
+//! first facet  the least vertex and two others whose plane has no vertex on one side      (all pairs are tried)
+//! next         a facet's edge u -> v, reversed: of all planes through it, the one with no vertex beyond it
 //!              (gift wrapping: Chand and Kapur, 1970); all vertices in that plane belong to the facet
-//! corners      a facet's outline, by the monotone chain (Andrew, 1979) with one coordinate left out
+//! corners      a facet's outline, by the monotone chain (Andrew, 1979) with one coordinate dropped
 //! ```
-//! Every side is decided exactly. Flat hulls have one facet seen from both sides, segments one edge, points nothing.
+//! Every side is decided exactly. Flat hulls have one facet, listed from both sides; segments one edge; points nothing.
 //! [`Solid`](crate::solid::Solid) finds the same by trying all triples.
 
 use super::exactly::{side_of_line, side_of_plane};
@@ -21,11 +21,11 @@ pub struct Polyhedron {
     pub facets: Vec<Vec<usize>>,
     /// The edges.
     pub edges: Vec<Edge>,
-    /// Whether there is an inside.
+    /// Whether there is an interior.
     pub is_solid: bool,
 }
 
-/// An edge and vertices beside it, one for each facet that it bounds.
+/// An edge, and a vertex beside it for each facet that it bounds.
 #[derive(Clone, Debug)]
 pub struct Edge {
     /// Both ends.
@@ -58,12 +58,12 @@ impl Polyhedron {
 }
 
 fn lexicographic(p: DVec3, q: DVec3) -> Ordering {
-    // Zeros of both signs are one.
+    // 0.0 and -0.0 are equal.
     let order = |axis: usize| (p[axis] + 0.0).total_cmp(&(q[axis] + 0.0));
     order(0).then(order(1)).then(order(2))
 }
 
-/// A coordinate without which three points are still not on one line: the best to leave out; `None` if they are on one.
+/// The best coordinate to drop so that three points are still not collinear; `None` if they are collinear.
 fn dropped_axis(points: &[DVec3], [i, j, k]: [usize; 3]) -> Option<usize> {
     let area = (points[j] - points[i]).cross(points[k] - points[i]).abs();
     let mut axes = [0, 1, 2];
@@ -71,13 +71,13 @@ fn dropped_axis(points: &[DVec3], [i, j, k]: [usize; 3]) -> Option<usize> {
     axes.into_iter().find(|&axis| side_of_line(points, [i, j, k], axis).is_ne())
 }
 
-/// The corners of the outline of points in one plane, three of which span it, in one sense or the other.
+/// The corners of the outline of coplanar points, three of which span the plane, in either orientation.
 fn outline(points: &[DVec3], corners: &[usize], spanning: [usize; 3]) -> Vec<usize> {
     let axis = dropped_axis(points, spanning).expect("three points that span a plane");
     outline_without(points, corners, axis)
 }
 
-/// The corners of the outline of points seen along an axis; counter-clockwise if that is the third.
+/// The corners of the outline of points projected along an axis; counter-clockwise if that is the third.
 pub fn outline_without(points: &[DVec3], corners: &[usize], axis: usize) -> Vec<usize> {
     let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
     let mut sorted = corners.to_vec();
@@ -109,7 +109,7 @@ pub fn outline_without(points: &[DVec3], corners: &[usize], axis: usize) -> Vec<
 fn wrapped(points: &[DVec3], distinct: &[usize]) -> Vec<Vec<usize>> {
     let mut facets: Vec<Vec<usize>> = Vec::new();
     let mut bounded = BTreeSet::new();
-    // Edges the other way round, each with a corner of the facet that it was found on.
+    // Reversed edges, each with a corner of the facet on which it was found.
     let mut open: Vec<[usize; 3]> = vec![];
     let mut next = Some(first_facet(points, distinct));
     while let Some(facet) = next.take() {
@@ -129,7 +129,7 @@ fn wrapped(points: &[DVec3], distinct: &[usize]) -> Vec<Vec<usize>> {
     facets
 }
 
-/// A facet that has the least vertex for a corner: two others are found with which nothing lies on one side.
+/// A facet with the least vertex as a corner: two others are searched whose plane has no vertex on one side.
 fn first_facet(points: &[DVec3], distinct: &[usize]) -> Vec<usize> {
     let first = distinct[0];
     let others = &distinct[1..];

@@ -1,15 +1,15 @@
 //! The separation of two shapes of any kind in double-double, with a bound on its own error.
 //!
 //! ```text
-//! place    stored vertices, turned and moved in double-double, seen from A's position            (place)
+//! place    stored vertices, rotated and moved in double-double, relative to A's position         (place)
 //! apart    the distance of the cores, between two bounds that prove each other                   (nearest)
 //! else     the best of all axes that can decide the depth, each by full projection               (facets, depth)
-//! rounded  less both radii            half-space: the least height of a point            bodies: the least of all parts
+//! rounded  less both radii           half-space: the least height of a point           bodies: the least of all parts
 //! ```
 //! The separation of two sets is the maximum over unit axes n of (min over B of n.x - max over A of n.x). Rounding is
-//! about 1e-30 of the largest coordinate seen from A's position. What is stated as the bound is that, and the gap
-//! between both bounds of a distance, and half a unit in the last place of the f64 that is handed out; for depths, what
-//! an axis may lose that double-double knows badly: slivers of facets, edges all but parallel (argued in `depth`).
+//! about 1e-30 of the largest coordinate relative to A's position. The stated bound is the sum of that, the gap between
+//! both bounds of a distance, and half an ulp of the returned f64; for depths, also what may be lost along an axis that
+//! double-double knows badly: slivers of facets, edges almost parallel (argued in `depth`).
 
 pub mod dd;
 pub mod depth;
@@ -29,15 +29,15 @@ use place::{Piece, pieces2, pieces3};
 /// A separation, and how well it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Precise<V> {
-    /// The separation, in metres: minus infinity between half-spaces that no translation parts.
+    /// The separation, in metres: minus infinity between half-spaces that no translation separates.
     pub separation: f64,
-    /// No smaller than the error of `separation`, in metres.
+    /// At least the error of `separation`, in metres.
     pub bound: f64,
     /// The unit axis from A to B that shows it; `None` where several do.
     pub normal: Option<V>,
 }
 
-/// As [`Precise`], before it is cut to f64.
+/// As [`Precise`], before rounding to f64.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     separation: Dd,
@@ -56,12 +56,12 @@ pub fn separation2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> Precise<DVec2>
     Precise { separation, bound, normal: normal.map(DVec3::truncate) }
 }
 
-/// The separation of every pair of parts, those of A's first part first; shapes of one part have one.
+/// The separation of every pair of parts, those of A's first part first; shapes of one part give one.
 pub fn separations3(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) -> Vec<Precise<DVec3>> {
     all_pairs3(a, b).iter().map(|(found, _)| found.cut()).collect()
 }
 
-/// The separation of every pair of parts, those of A's first part first; shapes of one part have one.
+/// The separation of every pair of parts, those of A's first part first; shapes of one part give one.
 pub fn separations2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> Vec<Precise<DVec2>> {
     let cut = |(found, _): &(Found, f64)| found.cut();
     let to_plane = |p: Precise<DVec3>| Precise {
@@ -72,10 +72,9 @@ pub fn separations2(a: (&Shape2, &Pose2), b: (&Shape2, &Pose2)) -> Vec<Precise<D
     all_pairs2(a, b).iter().map(cut).map(to_plane).collect()
 }
 
-/// The separation along an axis of any length, from A to B. Of bodies with parts, that of the nearest parts: the
-/// best of the pairs that are within 1e-6 of the size as near as the nearest. Of half-spaces, their separation
-/// where the axis is within 2e-7 of the normal, which f32 can miss by that; minus infinity elsewhere, as it is of
-/// the axis zero.
+/// The separation along an axis of any length, from A to B. For bodies with parts, that of the nearest parts: the best
+/// of the pairs that are within 1e-6 of the size as near as the nearest. For half-spaces, their separation where the
+/// axis is within 2e-7 of the normal, an error that f32 can make; minus infinity elsewhere, and for the zero axis.
 pub fn along3(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3), axis: Vec3) -> f64 {
     let origin = a.1.position();
     along(&pieces3(a, origin), &pieces3(b, origin), Dd3::from(axis.as_dvec3()), || all_pairs3(a, b))
@@ -121,7 +120,7 @@ fn reach(piece: &Piece) -> f64 {
     }
 }
 
-/// The least of some separations; its axis only if no other comes near with another axis.
+/// The least of some separations; with its axis only if no other one comes near along another axis.
 fn least(pairs: &[(Found, f64)]) -> Found {
     let by_separation = |p: &&(Found, f64), q: &&(Found, f64)| {
         p.0.separation.partial_cmp(&q.0.separation).expect("no separation is NaN")
@@ -137,7 +136,7 @@ fn least(pairs: &[(Found, f64)]) -> Found {
     if pairs.iter().any(|pair| is_tied(&pair)) {
         found.axis = None;
     }
-    // A part that is not the least by its own bound may still be.
+    // A part that is not the least may still be, within its own bound.
     found.bound =
         pairs.iter().map(|pair| pair.0.bound).filter(|bound| bound.is_finite()).fold(found.bound, f64::max);
     found
@@ -176,7 +175,7 @@ fn of_pieces(a: &Piece, b: &Piece, deepest: &impl Fn(Hull, Hull) -> Deepest) -> 
             Found { axis: found.axis.map(|axis| -axis), ..found }
         }
         (Piece::Half { normal, at, .. }, Piece::Half { normal: facing, at: there, .. }) => {
-            // Double-double cannot say "exactly"; two that it takes for opposite and that are not have no use.
+            // Double-double cannot say "exactly"; normals that count as opposite and are not are of no interest here.
             let is_opposite = (*normal + *facing).to_f64().length() <= NOISE;
             let height = normal.dot(*there - *at);
             let separation = if is_opposite { height } else { Dd::from(f64::NEG_INFINITY) };
@@ -192,7 +191,7 @@ fn of_cores(a: Hull, b: Hull, deepest: &impl Fn(Hull, Hull) -> Deepest) -> Found
     let found = nearest(a.cloud, b.cloud);
     if found.lower.to_f64() > noise {
         let bound = (found.upper - found.lower).to_f64().max(0.0) + noise;
-        // Good to 1e-10: else the line between the points has no direction to speak of.
+        // Good to 1e-10; with fewer digits the direction of the line between the points means nothing.
         let is_clear = found.upper.to_f64() > 1e10 * noise;
         return Found {
             separation: found.upper,
@@ -204,7 +203,7 @@ fn of_cores(a: Hull, b: Hull, deepest: &impl Fn(Hull, Hull) -> Deepest) -> Found
     let axis = best.is_unique.then_some(best.axis);
     let regret = (best.regret + 1e-24) * size;
     if best.gap.to_f64() > noise {
-        // A hair's gap, that the distance alone could not show.
+        // A tiny gap that the distance alone could not show.
         let (separation, below) = (found.upper.max(best.gap), best.gap.max(found.lower));
         return Found { separation, bound: (separation - below).to_f64() + noise, axis };
     }

@@ -5,14 +5,14 @@
 //! loop      the point of the simplex nearest to the origin, by trying every subset of its corners
 //!           its length bounds the distance from above: it is a difference of two points of the hulls
 //!           the gap between the projections on its direction bounds it from below
-//!           until they agree, or no corner is new; a simplex that holds the origin ends it too: the hulls overlap
+//!           until they agree, or no corner is new; a simplex that contains the origin ends it too: the hulls overlap
 //! ```
 //! Whatever the iteration does, both bounds are true, up to the rounding of a double-double.
 
 use super::dd::{Dd, Dd3};
 use glam::DVec3;
 
-/// Points, and the same ones in f64, by which supports are looked for first.
+/// Points, and the same points in f64, among which support points are searched first.
 #[derive(Clone, Debug)]
 pub struct Cloud {
     /// The points. There is at least one.
@@ -25,15 +25,15 @@ pub struct Cloud {
 /// What is known of the distance between two hulls.
 #[derive(Clone, Debug)]
 pub struct Nearest {
-    /// From A to B, the shortest difference found; zero or all but zero in overlap.
+    /// From A to B, the shortest difference found; zero or nearly zero in overlap.
     pub vector: Dd3,
     /// The points of A and of B, by index, whose differences span `vector`.
     pub corners: Vec<[usize; 2]>,
-    /// The share of each of them.
+    /// The weight of each of them.
     pub weights: Vec<Dd>,
-    /// No smaller than the distance: the length of `vector`.
+    /// At least the distance: the length of `vector`.
     pub upper: Dd,
-    /// No greater than the distance; negative where no axis tried shows a gap.
+    /// At most the distance; negative where no axis tried shows a gap.
     pub lower: Dd,
     /// The unit axis that shows `lower`.
     pub axis: Option<Dd3>,
@@ -42,7 +42,7 @@ pub struct Nearest {
 /// Steps after which the iteration is cut off; a few dozen is the most seen.
 const MAX_STEPS: usize = 500;
 
-/// What a double-double knows of the length of a sum, relative to the largest term: 2^-98, sixteen units or so.
+/// The relative error of the length of a sum in double-double, over its largest term: 2^-98, sixteen units or so.
 pub const NOISE: f64 = 3.2e-30;
 
 impl Cloud {
@@ -63,12 +63,12 @@ impl Cloud {
         self.reach
     }
 
-    /// The point furthest along a unit axis, and how far that is.
+    /// The point furthest along a unit axis, and its projection.
     pub fn support(&self, axis: Dd3) -> (usize, Dd) {
         let rough_axis = axis.to_f64();
         let along: Vec<f64> = self.rough.iter().map(|p| p.dot(rough_axis)).collect();
         let most = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // Ten roundings of f64 at most on either side; what lies below this cannot be the furthest.
+        // At most ten roundings of f64 on either side; a point below this cannot be the furthest.
         let enough = most - 1e-14 * self.reach;
         let near = (0..along.len()).filter(|&i| along[i] >= enough);
         let exact = near.map(|i| (i, self.points[i].dot(axis)));
@@ -99,7 +99,7 @@ pub fn gap_along(a: &Cloud, b: &Cloud, axis: Dd3) -> Dd {
     -b.support(-axis).1 - a.support(axis).1
 }
 
-/// The distance of the hulls of two clouds.
+/// The distance between the hulls of two clouds.
 pub fn nearest(a: &Cloud, b: &Cloud) -> Nearest {
     let noise = NOISE * (a.reach + b.reach);
     let difference = |[i, j]: [usize; 2]| b.points[j] - a.points[i];
@@ -138,7 +138,7 @@ pub fn nearest(a: &Cloud, b: &Cloud) -> Nearest {
     best
 }
 
-/// The point nearest to the origin of the hull of up to four points: who spans it, with which shares.
+/// The point nearest to the origin of the hull of up to four points: the corners that span it, and their weights.
 fn nearest_of_simplex(corners: &[Dd3]) -> Option<(Vec<usize>, Vec<Dd>, Dd3)> {
     let mut best: Option<(Vec<usize>, Vec<Dd>, Dd3, Dd)> = None;
     for subset in 1_usize..1 << corners.len() {
@@ -154,8 +154,8 @@ fn nearest_of_simplex(corners: &[Dd3]) -> Option<(Vec<usize>, Vec<Dd>, Dd3)> {
     best.map(|(kept, weights, vector, _)| (kept, weights, vector))
 }
 
-/// The shares of up to four points in the foot of the origin on their affine hull; `None` if one is negative, or if the
-/// points span less than they should: a subset of them does as well then.
+/// The weights of up to four points in the foot of the origin on their affine hull; `None` if one is negative, or if
+/// the points are affinely dependent: a subset of them does as well then.
 fn weights_of_foot(points: &[Dd3]) -> Option<Vec<Dd>> {
     let shares = match *points {
         [_] => vec![Dd::from(1.0)],

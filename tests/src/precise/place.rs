@@ -1,4 +1,4 @@
-//! Posed shapes in double-double, seen from A's position.
+//! Posed shapes in double-double, relative to A's position.
 
 use super::dd::{Dd, Dd3};
 use super::nearest::Cloud;
@@ -11,11 +11,11 @@ use glam::{DVec2, DVec3};
 pub enum Piece {
     /// Everything within a radius of a core.
     Round {
-        /// The core's points where they are.
+        /// The core's points, posed.
         cloud: Cloud,
         /// The same points as the shape stores them, which is exact.
         stored: Vec<DVec3>,
-        /// The images of the coordinate axes, by which stored directions are turned.
+        /// The images of the coordinate axes, which rotate stored directions.
         turn: [Dd3; 3],
         /// The radius, in metres.
         radius: Dd,
@@ -29,7 +29,7 @@ pub enum Piece {
     },
 }
 
-/// The pieces of a posed shape, seen from `origin`: one, or a compound's parts in order.
+/// The pieces of a posed shape, relative to `origin`: one, or a compound's parts in order.
 pub fn pieces3((shape, pose): (&Shape3, &Pose3), origin: DVec3) -> Vec<Piece> {
     let moved = moved(pose.position().to_array(), origin.to_array());
     match shape {
@@ -44,7 +44,7 @@ pub fn pieces3((shape, pose): (&Shape3, &Pose3), origin: DVec3) -> Vec<Piece> {
     }
 }
 
-/// The pieces of a posed shape in the plane, seen from `origin`: one, or a compound's parts in order.
+/// The pieces of a posed shape in the plane, relative to `origin`: one, or a compound's parts in order.
 pub fn pieces2((shape, pose): (&Shape2, &Pose2), origin: DVec2) -> Vec<Piece> {
     let moved = moved(pose.position().extend(0.0).to_array(), origin.extend(0.0).to_array());
     match shape {
@@ -79,7 +79,7 @@ fn piece2(shape: &Shape2, turn: impl Fn(Dd3) -> Dd3, moved: Dd3) -> Piece {
 }
 
 fn half(stored: DVec3, turn: impl Fn(Dd3) -> Dd3, at: Dd3) -> Piece {
-    // Stored matrices in the plane are not quite of unit length, and normals are of any.
+    // Stored matrices in the plane are not exactly of unit length, and normals are of any length.
     let normal = Dd3::from(stored).try_normalize().and_then(|normal| turn(normal).try_normalize());
     Piece::Half { normal: normal.expect("refused by the constructor"), at }
 }
@@ -95,7 +95,7 @@ fn moved(position: [f64; 3], origin: [f64; 3]) -> Dd3 {
     Dd3 { x, y, z }
 }
 
-/// A vector turned by M(q)/|q|^2, by the sandwich product.
+/// A vector rotated by M(q)/|q|^2, by the sandwich product.
 fn turned(pose: &Pose3, v: Dd3) -> Dd3 {
     let [x, y, z, w] = pose.rotation().to_array().map(Dd::from);
     let u = Dd3 { x, y, z };
@@ -104,7 +104,7 @@ fn turned(pose: &Pose3, v: Dd3) -> Dd3 {
     v + twice + twice
 }
 
-/// A vector in the plane turned by the stored matrix.
+/// A vector in the plane rotated by the stored matrix.
 fn turned2(pose: &Pose2, v: Dd3) -> Dd3 {
     let (c, s) = (Dd::from(pose.rotation().cos()), Dd::from(pose.rotation().sin()));
     Dd3 { x: c * v.x - s * v.y, y: s * v.x + c * v.y, z: Dd::ZERO }

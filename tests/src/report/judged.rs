@@ -1,4 +1,4 @@
-//! One case: every promise of ours held against the judges.
+//! One case: all our promises checked against the oracles.
 
 use super::peers::{self, Said};
 use super::posed::{Ours, Posed, Reported, Truth};
@@ -9,35 +9,35 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// A separation must be within this share of the measure, and its normal must show it to this share.
 const ACCURACY: f64 = 1e-6;
 
-/// What is asked of a case besides yes or no.
+/// What is checked of a case besides overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// Whether the judges measure the separation.
+    /// Whether the oracles measure the separation.
     pub truth: bool,
-    /// Whether parry3d is asked.
+    /// Whether parry3d is queried.
     pub peers: bool,
 }
 
 /// A promise that was broken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// `overlaps` or `verdict` against exact arithmetic.
+    /// `overlaps` or `verdict` disagrees with exact arithmetic.
     Wrong,
     /// A panic.
     Panicked,
-    /// A NaN, an infinity that is none, an error below 0, or a normal that is no unit vector.
+    /// A NaN, an undue infinity, a negative error, or a normal that is not a unit vector.
     NotANumber,
     /// `separation` above 0 exactly when the shapes do not overlap.
     Sign,
-    /// `distance` gives something exactly when the shapes do not overlap.
+    /// `distance` returns something exactly when the shapes do not overlap.
     Distance,
     /// |true - reported| <= error.
     Broken,
     /// Separation and distance within 1e-6 of the measure.
     Inaccurate,
-    /// The separation along the reported normal within 1e-6 of the measure of the best one.
+    /// The separation along the reported normal is within 1e-6 of the measure of the best one.
     Regret,
-    /// A manifold at margin 0 exactly when two solids overlap.
+    /// There is a manifold at margin 0 exactly when two solids overlap.
     Manifold,
 }
 
@@ -81,20 +81,20 @@ pub struct Fault {
     pub story: String,
 }
 
-/// What was found out about one case.
+/// The results for one case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judged {
-    /// What exact arithmetic says.
+    /// The relation by exact arithmetic.
     pub relation: Relation,
-    /// The judges' separation, where it was asked for.
+    /// The oracles' separation, if it was measured.
     pub truth: Option<Truth>,
-    /// What errors are relative to, in metres: the size, or in a wide gap the separation, which an f32 rounds.
+    /// What errors are relative to, in metres: the size, or in a wide gap the separation, which is rounded to f32.
     pub measure: f64,
-    /// Our answers; nothing after a panic.
+    /// Our answers; `None` after a panic.
     pub ours: Option<Ours>,
-    /// What we broke.
+    /// The promises that we broke.
     pub faults: Vec<Fault>,
-    /// parry3d in f32 and f64, where it was asked.
+    /// parry3d's answers in f32 and f64, where it was queried.
     pub peers: [Said; 2],
     /// The larger |reported - true| of separation and distance over the measure.
     pub error: Option<f64>,
@@ -104,7 +104,7 @@ pub struct Judged {
     pub regret: Option<f64>,
 }
 
-/// Asks one pair everything, and holds the answers against the judges.
+/// Runs all queries on one pair, and checks the answers against the oracles.
 ///
 /// ```
 /// use asunder_scenes::pairs::{PairSet, PlaneKind, pairs2};
@@ -127,7 +127,7 @@ pub fn judge<P: Posed>(pair: &P, question: Question) -> Judged {
         tightness: None,
         regret: None,
     };
-    // Nothing that a panic leaves behind is looked at again.
+    // Nothing that a panic leaves behind is used again.
     match catch_unwind(AssertUnwindSafe(|| pair.ours())) {
         Ok(ours) => {
             judged.ours = Some(ours);
@@ -146,7 +146,7 @@ pub fn judge<P: Posed>(pair: &P, question: Question) -> Judged {
     judged
 }
 
-/// A wide gap is a larger number than the size, and an f32 rounds it by its own share.
+/// A wide gap is a larger number than the size, and is rounded to f32.
 fn measure(size: f64, truth: Option<Truth>) -> f64 {
     let gap = truth.map(|truth| truth.separation.abs()).filter(|gap| gap.is_finite()).unwrap_or(0.0);
     size.max(gap).max(f64::MIN_POSITIVE)
@@ -168,7 +168,7 @@ impl Judged {
             let story = format!("overlaps {}, {:?}, exact {exact}", ours.overlaps, ours.verdict);
             self.blame(FaultKind::Wrong, story);
         }
-        // Against our own yes or no: a wrong one is told above.
+        // Compared with our own overlap decision: a wrong one is reported above.
         let overlaps = ours.overlaps;
         match ours.separation {
             Some(found) if (found.value <= 0.0) == overlaps => {}
@@ -186,7 +186,7 @@ impl Judged {
 
     fn check_numbers(&mut self, ours: &Ours) {
         for found in ours.separation.iter().chain(&ours.distance) {
-            // Two half-spaces that look at each other overlap without end.
+            // Two half-spaces that face each other overlap without bound.
             let is_number = found.value.is_finite() || found.value == f64::NEG_INFINITY;
             let has_bound = found.error >= 0.0 && found.error < f64::INFINITY;
             let is_unit = (found.normal.length() - 1.0).abs() < 1e-6;
@@ -241,7 +241,7 @@ fn exceeds(figure: f64, limit: f64) -> bool {
     figure.is_nan() || limit.is_nan() || figure > limit
 }
 
-/// The larger of what was found and what was known; a NaN stays.
+/// The larger of a new figure and the known one; a NaN stays.
 fn larger(known: Option<f64>, found: f64) -> Option<f64> {
     Some(known.map_or(found, |known| if found > known || found.is_nan() { found } else { known }))
 }
@@ -254,7 +254,7 @@ mod tests {
     use asunder_scenes::pairs::PosedPair3;
     use glam::{DVec3, Vec3};
 
-    /// A true pair with answers of our choosing.
+    /// A real pair with answers of our choosing.
     #[derive(Debug)]
     struct Liar {
         pair: PosedPair3,
@@ -297,7 +297,7 @@ mod tests {
         }
     }
 
-    /// Two unit cubes at a distance along x, and all that is true of them.
+    /// Two unit cubes at a distance along x, with true answers.
     fn honest(x: f64) -> Liar {
         let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());
         let pose_b = Pose3::at([x, 0.125, 0.0]).unwrap();
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(with(1.5, |ours| ours.distance = None), [Distance]);
         assert_eq!(with(0.75, |ours| ours.separation = None), [Sign]);
         assert_eq!(with(1.0, |ours| separation(ours, |found| found.value = 5e-8)), [Sign]);
-        // The bound alone; the bound and the accuracy; the accuracy alone.
+        // Breaks the bound alone; the bound and the accuracy; the accuracy alone.
         assert_eq!(with(0.75, |ours| separation(ours, |found| found.value += 2e-7)), [Broken]);
         assert_eq!(with(0.75, |ours| separation(ours, |found| found.value += 1e-5)), [Broken, Inaccurate]);
         let wide = |found: &mut Reported| (found.value, found.error) = (-0.251, 1e-2);

@@ -1,15 +1,15 @@
 //! The report on hard cases: what we and parry3d get wrong, by how much, and at what cost, family by family.
 //!
 //! ```text
-//! posed   one face for pairs in space and in the plane: our answers, the judges', the peers'
-//! judged  one case: every promise of ours held against the judges, every breach told with its numbers
-//! peers   parry3d in f32 and in f64, asked so that a panic or a NaN is an answer like any other
+//! posed   one trait for pairs in space and in the plane: our answers, the oracles', the peers'
+//! judged  one case: all our promises checked against the oracles, every breach reported with its numbers
+//! peers   parry3d in f32 and in f64, called so that a panic or a NaN is an answer like any other
 //! tally   many cases of one family added up, in any order with the same result
-//! times   nanoseconds a query, on one thread, in turns
+//! times   nanoseconds per query, on one thread, in turns
 //! table   rows for a program and a table for people
 //! ```
-//! The judges decide yes or no on every case by exact arithmetic. The separation, which they need for errors, costs
-//! more, so it is asked of every k-th case ([`Scope::truth_every`]).
+//! Overlap is checked on every case by exact arithmetic. The true separation, which is needed for errors, costs more,
+//! so it is computed on every k-th case ([`Scope::truth_every`]).
 
 mod judged;
 pub mod peers;
@@ -27,7 +27,7 @@ pub use times::{Times, times};
 
 use asunder_scenes::pairs::{PosedPair2, PosedPair3};
 
-/// Judges one pair in space, errors and all, without the peers.
+/// Judges one pair in space, including errors, without the peers.
 ///
 /// ```
 /// use asunder_scenes::pairs::{PairSet, SolidKind, pairs3};
@@ -38,7 +38,7 @@ pub fn judge3(pair: &PosedPair3) -> Judged {
     judge(pair, Question { truth: true, peers: false })
 }
 
-/// Judges one pair in the plane, errors and all.
+/// Judges one pair in the plane, including errors.
 ///
 /// ```
 /// use asunder_scenes::pairs::{PairSet, PlaneKind, pairs2};

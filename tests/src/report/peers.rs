@@ -1,13 +1,13 @@
-//! parry3d in f32 and in f64, asked the same questions.
+//! parry3d in f32 and in f64, with the same queries.
 //!
-//! Both crates have the same names, so the questions are written once. Their poses get the position rounded to their
-//! own number and the stored quaternion made a unit one in f64 first: the least that their types take away.
+//! Both crates have the same names, so the queries are written once. Positions are rounded to the crate's number type,
+//! and the stored quaternion is normalised in f64 first: the least loss that its types allow.
 
 use asunder_scenes::pairs::PosedPair3;
 use glam::DVec3;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What a peer says of a pair. Nothing where it has no such shape or no such query.
+/// A peer's answers for a pair; `None` where it has no such shape or no such query.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Said {
     /// Whether the shapes share a point.
@@ -30,7 +30,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Both, as deep as the deeper one; a NaN stays.
+    /// Both together, with the depth of the deeper one; a NaN stays.
     fn with(&self, other: &Self) -> Self {
         let deeper =
             if other.separation < self.separation || other.separation.is_nan() { other } else { self };
@@ -38,17 +38,17 @@ impl Contact {
     }
 }
 
-/// parry3d's word on a pair: f32, then f64.
+/// parry3d's answers for a pair: f32, then f64.
 pub(super) fn ask(pair: &PosedPair3) -> [Said; 2] {
     [guarded(|| Some(single::Twins::new(pair)?.said())), guarded(|| Some(double::Twins::new(pair)?.said()))]
 }
 
-/// What a call returns; nothing if it panics. Nothing that a panic leaves behind is looked at again.
+/// What a call returns; `None` if it panics. Nothing that a panic leaves behind is used again.
 pub fn unless_panic<T>(call: impl FnOnce() -> Option<T>) -> Option<T> {
     catch_unwind(AssertUnwindSafe(call)).ok().flatten()
 }
 
-/// What a peer says that may panic.
+/// A peer's answers from a call that may panic.
 fn guarded(ask: impl FnOnce() -> Option<Said>) -> Said {
     let ask = || Some(ask().unwrap_or_default());
     unless_panic(ask).unwrap_or(Said { panicked: true, ..Said::default() })
@@ -69,7 +69,7 @@ macro_rules! peer {
             };
             use $parry::shape::SharedShape;
 
-            /// Both shapes as this peer's, where they stand.
+            /// Both shapes as this peer's, posed.
             pub struct Twins {
                 shapes: [SharedShape; 2],
                 poses: [Pose; 2],
@@ -79,7 +79,7 @@ macro_rules! peer {
             pub type Manifolds = Vec<ContactManifold<(), ()>>;
 
             impl Twins {
-                /// Nothing where the peer has no such shape, or refuses it.
+                /// `None` where the peer has no such shape, or rejects it.
                 pub fn new(pair: &PosedPair3) -> Option<Self> {
                     Some(Self {
                         shapes: [shape(&pair.shape_a)?, shape(&pair.shape_b)?],
@@ -87,8 +87,8 @@ macro_rules! peer {
                     })
                 }
 
-                /// As [`Twins::new`] for many pairs, those of equal shapes sharing theirs, as a game's do. Cost: each
-                /// shape is looked for among those before it.
+                /// As [`Twins::new`] for many pairs; equal shapes are shared, as in a game. Cost: each shape is
+                /// searched among those before it.
                 pub fn all(pairs: &[PosedPair3]) -> Vec<Option<Self>> {
                     let mut known: Vec<(&Shape3, Option<SharedShape>)> = Vec::new();
                     let mut find = |ours| {
@@ -106,7 +106,7 @@ macro_rules! peer {
                     twins.collect()
                 }
 
-                /// Whether they share a point; nothing where the peer has no such query.
+                /// Whether they share a point; `None` where the peer has no such query.
                 pub fn overlaps(&self) -> Option<bool> {
                     let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
                     Some(intersection_test(at_a, &*a.0, at_b, &*b.0).ok()?.intersecting)
@@ -116,11 +116,11 @@ macro_rules! peer {
                 fn separation(&self) -> Option<f64> {
                     let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
                     let gap = distance(at_a, &*a.0, at_b, &*b.0).ok()?.distance;
-                    // A NaN is no zero, and shall be seen.
+                    // A NaN is not zero, and must be seen.
                     if gap != 0.0 {
                         return Some(gap as f64);
                     }
-                    // In this order, `contact_support_map_halfspace` of 0.31 forgets to turn the pose round.
+                    // In this order, `contact_support_map_halfspace` of 0.31 forgets to invert the pose.
                     if b.as_halfspace().is_some() || a.as_halfspace().is_some() && b.as_compound().is_some() {
                         return None;
                     }
@@ -130,7 +130,7 @@ macro_rules! peer {
                     Some(if sum.is_nan() { f64::NAN } else { found.dist as f64 })
                 }
 
-                /// Where they overlap, how deep; the inner nothing where they are apart, the outer where the peer has
+                /// The contact where they overlap; the inner `None` where they are apart, the outer where the peer has
                 /// no such query.
                 #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
                 pub fn contact(&self) -> Option<Option<Contact>> {
@@ -143,8 +143,8 @@ macro_rules! peer {
                     }))
                 }
 
-                /// Leaves nothing of the last frame in memory but the memory: an empty manifold without a normal is one
-                /// that it has never seen.
+                /// Forgets the last frame but keeps the memory: an empty manifold without a normal counts as never
+                /// seen.
                 pub fn forget(kept: &mut Manifolds) {
                     for manifold in kept {
                         manifold.points.clear();
@@ -152,8 +152,8 @@ macro_rules! peer {
                     }
                 }
 
-                /// Its contact points at margin 0, out of what it kept of the last frame: the deepest one's separation,
-                /// and its manifold's normal in A's axes.
+                /// Its contact points at margin 0, given what it kept of the last frame: the separation of the deepest
+                /// one, and its manifold's normal in A's axes.
                 #[allow(clippy::unnecessary_cast, reason = "written once for f32 and f64")]
                 pub fn manifold(&self, kept: &mut Manifolds) -> Option<Option<Contact>> {
                     let ([a, b], [at_a, at_b]) = (&self.shapes, &self.poses);
@@ -233,7 +233,7 @@ macro_rules! peer {
                         let vertices = mesh.vertices().iter().map(|&vertex| vector(vertex)).collect();
                         SharedShape::trimesh(vertices, mesh.triangles().to_vec()).ok()?
                     }
-                    // Its triangles are cut along the other diagonal, or not: no twin.
+                    // Its cells may be cut along the other diagonal: no twin.
                     Shape3::HeightField(_) => return None,
                 })
             }

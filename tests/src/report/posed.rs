@@ -1,4 +1,4 @@
-//! One face for pairs in space and in the plane. Directions of the plane get a z of 0.
+//! One trait for pairs in space and in the plane. Directions in the plane get z = 0.
 
 use crate::exact_overlap::{Relation, exact_relation2, exact_relation3};
 use crate::precise::{along2, along3, separation2, separation3};
@@ -12,67 +12,68 @@ use glam::DVec3;
 pub struct Reported {
     /// Metres.
     pub value: f64,
-    /// Metres: |true - value| is said to be no more.
+    /// Metres: the promised bound of |true - value|.
     pub error: f64,
     /// From A to B.
     pub normal: DVec3,
 }
 
-/// The judges' separation.
+/// The oracles' separation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Metres.
     pub separation: f64,
-    /// Metres that it may be off.
+    /// Its error bound, in metres.
     pub bound: f64,
 }
 
-/// All that the library says of a pair.
+/// All that the library reports for a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ours {
     /// The first tier alone.
     pub guess: bool,
     /// The certain answer, and which tier gave it.
     pub verdict: Verdict,
-    /// The certain answer once more, by itself.
+    /// The certain answer again, from `overlaps`.
     pub overlaps: bool,
-    /// `separation` without a limit; nothing if it gave but a bound.
+    /// `separation` without a limit; `None` if it returned only a bound.
     pub separation: Option<Reported>,
     /// `distance`.
     pub distance: Option<Reported>,
-    /// How many points `manifold(0)` has; nothing without a manifold.
+    /// The number of points of `manifold(0)`; `None` without a manifold.
     pub points: Option<usize>,
 }
 
-/// A pair that can be asked about, and judged.
+/// A pair that can be queried, and judged.
 pub trait Posed: core::fmt::Debug + Send + Sync {
-    /// Asks the library everything. It must not panic; the report finds out.
+    /// Runs all of the library's queries. They must not panic; the report finds out.
     fn ours(&self) -> Ours;
-    /// The first tier alone, from two posed shapes to the answer: what is timed.
+    /// The first tier alone, from two posed shapes to the answer: this is timed.
     fn guess(&self) -> bool;
-    /// The certain answer, from two posed shapes to the answer: what is timed.
+    /// The certain answer, from two posed shapes to the answer: this is timed.
     fn overlaps(&self) -> bool;
     /// The certain answer, and which tier gave it.
     fn verdict(&self) -> Verdict;
-    /// What exact arithmetic says.
+    /// The relation by exact arithmetic.
     fn relation(&self) -> Relation;
-    /// The separation in metres, and how far it may be off.
+    /// The true separation in metres, and its error bound.
     fn truth(&self) -> Truth;
-    /// The sum of the finite bounding radii, in metres. A point and another, or a half-space, have none: how far their
-    /// positions are apart is what they are computed from.
+    /// The sum of the finite bounding radii, in metres. A pair of points, or a point and a half-space, has none: then
+    /// the distance of their positions, which their separation is computed from.
     fn size(&self) -> f64;
-    /// The separation along a reported normal, in metres: -inf where it is none of a half-space's. Of compounds, that
-    /// of the nearest parts.
+    /// The separation along a reported normal, in metres: -inf where it is not that of a half-space. For compounds,
+    /// that of the nearest parts.
     fn gap_along(&self, normal: DVec3) -> f64;
-    /// Vertices of both bodies, which is what judging takes time by.
+    /// Vertices of both bodies, which determine the time for judging.
     fn vertices(&self) -> usize;
-    /// Whether both bodies have an inside and an end: whether they overlap exactly when they have contact points.
+    /// Whether both bodies are bounded and have an interior, so that they overlap exactly when they have contact
+    /// points.
     fn is_solid(&self) -> bool;
     /// The pair itself if it is in space, where there is a peer.
     fn in_space(&self) -> Option<&PosedPair3>;
 }
 
-/// The sum of the finite radii; of points, how far their positions are apart.
+/// The sum of the finite radii; for points, the distance of their positions.
 fn size(radii: [f32; 2], between: f64) -> f64 {
     let sum = radii.into_iter().filter(|radius| radius.is_finite()).map(f64::from).sum();
     if sum > 0.0 { sum } else { between }

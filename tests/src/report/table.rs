@@ -5,7 +5,7 @@ use super::tally::{PeerTally, Tally};
 use super::times::Times;
 use serde::Serialize;
 
-/// One family's figures. Nothing stands where nothing was measured.
+/// One family's figures; `None` where nothing was measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Row {
     /// `hard/NAME` in space, `hard2/NAME` in the plane.
@@ -14,19 +14,19 @@ pub struct Row {
     pub cases: usize,
     /// Cases whose separation was judged as well.
     pub measured: usize,
-    /// Cases in which the shapes share a point, and those in which they only touch.
+    /// Cases in which the shapes share a point.
     pub overlapping: usize,
-    /// Cases in which they share a point and no inside.
+    /// Cases in which they share a point, but no interior point.
     pub touching: usize,
     /// Wrong answers of `overlaps`.
     pub wrong: usize,
     /// Wrong answers of the first tier alone.
     pub wrong_guess: usize,
-    /// Our panics, NaN, and normals that are none.
+    /// Our panics, NaN, and invalid normals.
     pub no_number: usize,
     /// Reported errors that were exceeded.
     pub broken_bounds: usize,
-    /// Signs, distances and manifolds that do not go with `overlaps`.
+    /// Signs, distances and manifolds that disagree with `overlaps`.
     pub at_odds: usize,
     /// The largest |separation - truth| over size.
     pub error: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Row {
     pub error_over_bound: Option<f64>,
     /// The largest loss of separation along the reported normal, over size.
     pub regret: Option<f64>,
-    /// Shares settled by the bound, in f64, exactly.
+    /// Shares settled by the error bound, in f64, exactly.
     pub tiers: [f64; 3],
     /// Median nanoseconds of the first tier alone.
     pub guess_ns: Option<f64>,
@@ -51,7 +51,7 @@ pub struct Row {
 pub struct Peer {
     /// Cases that it has shapes and a query for.
     pub answered: usize,
-    /// Wrong answers where shapes are apart or truly overlap; touching ones are not held against it.
+    /// Wrong answers where shapes are apart or truly overlap; touching ones do not count.
     pub wrong: usize,
     /// Panics and NaN.
     pub no_number: usize,
@@ -177,7 +177,7 @@ pub fn header(truth_every: usize) -> String {
     format!("| {} |\n| {} |", names.join(" | "), rule.join(" | "))
 }
 
-/// The whole report in Markdown: what it says in short, how it was made, what its columns mean, the rows and their sum.
+/// The whole report in Markdown: a summary, how it was made, what its columns mean, the rows and their sum.
 ///
 /// ```
 /// use asunder_tests::report::{Row, markdown};
@@ -216,7 +216,7 @@ const MEANING: &str = "\
 
 ";
 
-/// What all rows together say, in one paragraph.
+/// A summary of all rows, in one paragraph.
 fn summary(all: &Row) -> String {
     let Row { cases, wrong, broken_bounds, at_odds, parry_f32, parry_f64, .. } = all;
     let asked = |peer: &Peer| format!("{} of {}", peer.wrong, peer.answered);
@@ -228,7 +228,7 @@ fn summary(all: &Row) -> String {
     )
 }
 
-/// All rows added up; times are left out, and shares are of all cases.
+/// All rows added up, without times; shares are of all cases.
 fn sum(rows: &[Row]) -> Row {
     let total = |count: fn(&Row) -> usize| rows.iter().map(count).sum::<usize>();
     let worst = |figure: fn(&Row) -> Option<f64>| rows.iter().filter_map(figure).max_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Many cases of one family added up: the same result in any order, on any number of threads.
+//! Many cases of one family added up, with the same result in any order, on any number of threads.
 
 use super::judged::{FaultKind, Judged, Question, judge};
 use super::peers::Said;
@@ -10,7 +10,7 @@ use asunder_scenes::pairs::{PosedPair2, PosedPair3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// A family of hard cases, of either dimension.
+/// A family of hard cases, in either dimension.
 pub trait Hard: Sync {
     /// Its pairs.
     type Pair: Posed;
@@ -20,10 +20,10 @@ pub trait Hard: Sync {
     fn about(&self) -> &'static str;
     /// Levels of difficulty, 0 the easiest.
     fn levels(&self) -> u32;
-    /// One case. Equal numbers give equal bits.
+    /// One case. Equal arguments give equal bits.
     fn case(&self, level: u32, seed: u64) -> Self::Pair;
 
-    /// Case `index` of a run: levels in turn, so that any first stretch has them all.
+    /// Case `index` of a run: levels in turn, so that any prefix has them all.
     fn nth(&self, index: usize, seed: u64) -> (u32, u64) {
         let levels = self.levels().max(1) as usize;
         ((index % levels) as u32, seed.wrapping_add((index / levels) as u64))
@@ -75,15 +75,15 @@ impl Hard for Family2 {
 pub struct Scope {
     /// Cases.
     pub cases: usize,
-    /// The separation is judged on every so many-th case of each level, from the first.
+    /// The separation is judged on every k-th case of each level, from the first; this is k.
     pub truth_every: usize,
     /// The first seed.
     pub seed: u64,
-    /// Whether parry3d is asked.
+    /// Whether parry3d is queried.
     pub peers: bool,
 }
 
-/// The first case that broke a promise, by which it can be made again.
+/// The first case that broke a promise, with what is needed to make it again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offender {
     /// Its place in the run.
@@ -99,11 +99,11 @@ pub struct Offender {
 /// What a peer got wrong.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PeerTally {
-    /// Cases with a yes or no.
+    /// Cases with an overlap decision.
     pub answered: usize,
-    /// Wrong ones among them; where shapes touch without overlapping, any answer is let pass.
+    /// Wrong ones among them; where shapes touch without overlapping, any answer is accepted.
     pub wrong: usize,
-    /// Separations that are no number.
+    /// Separations that are NaN.
     pub not_a_number: usize,
     /// Panics.
     pub panics: usize,
@@ -142,8 +142,8 @@ pub struct Tally {
     pub peers: [PeerTally; 2],
 }
 
-/// What part of the cases a family gets beside others: 1 up to 40 vertices a pair, less in proportion beyond, as
-/// judging takes longer. Cost: making two pairs of every level.
+/// A family's weight in sharing out cases: 1 up to 40 vertices per pair, less in proportion beyond, as judging takes
+/// longer. Cost: making two pairs of every level.
 ///
 /// ```
 /// use asunder_scenes::hard::FAMILIES2;
@@ -172,7 +172,7 @@ pub fn shares(weights: &[f64], cases: usize) -> Vec<usize> {
     weights.iter().map(|weight| (cases as f64 * weight / sum).ceil() as usize).collect()
 }
 
-/// Runs and judges a part of a family on all threads of the current pool.
+/// Runs and judges some cases of a family on all threads of the current pool.
 ///
 /// ```
 /// use asunder_scenes::hard::FAMILIES2;
@@ -200,7 +200,7 @@ impl Tally {
         self.faults.get(&kind).copied().unwrap_or(0)
     }
 
-    /// How often a promise was broken and by which case first, in words; nothing where it was kept.
+    /// How often a promise was broken, and by which case first, in words; `None` where it was kept.
     pub fn complaint(&self, kind: FaultKind) -> Option<String> {
         let Offender { level, seed, story, .. } = self.offenders.get(&kind)?;
         let (family, count, cases) = (&self.family, self.count(kind), self.cases);
@@ -292,7 +292,7 @@ impl PeerTally {
     }
 }
 
-/// The larger of two figures; a NaN is larger than any, whichever side it is on.
+/// The larger of two figures; a NaN counts as the largest, on whichever side it is.
 fn largest(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if a.is_nan() || a >= b { a } else { b }),

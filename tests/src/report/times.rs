@@ -1,4 +1,4 @@
-//! Nanoseconds a query: on one thread, by its CPU time, the variants in turns, medians of blocks.
+//! Nanoseconds per query: on one thread, by its CPU time, the variants in turns, medians of blocks.
 
 use super::peers::{double, single, unless_panic};
 use super::posed::Posed;
@@ -9,10 +9,10 @@ use cpu_time::ThreadTime;
 /// Pairs in a block. Reading the clock costs about as much as a query.
 const BLOCK: usize = 32;
 
-/// How often every block is asked.
+/// How often every block is run.
 const ROUNDS: usize = 5;
 
-/// Median cost of yes or no, in nanoseconds a pair; nothing where nobody answers.
+/// Median cost of an overlap test, in nanoseconds per pair; `None` where there is no answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Times {
     /// Our first tier alone, from two posed shapes.
@@ -37,7 +37,7 @@ pub fn times<H: Hard>(family: &H, count: usize, seed: u64) -> Times {
     };
     let pairs: Vec<H::Pair> = (0..count).map(make).collect();
     let in_space = || pairs.iter().filter_map(Posed::in_space);
-    // A peer that refuses some of the shapes, or panics, is timed on the rest.
+    // A peer that rejects some of the shapes, or panics, is timed on the rest.
     let single: Vec<single::Twins> =
         in_space().filter_map(|pair| unless_panic(|| single::Twins::new(pair))).collect();
     let double: Vec<double::Twins> =
@@ -54,8 +54,8 @@ pub fn times<H: Hard>(family: &H, count: usize, seed: u64) -> Times {
     Times { guess: median(guess), overlaps: median(overlaps), peers: [median(in_f32), median(in_f64)] }
 }
 
-/// Times one question about the block from `first` on, in nanoseconds a pair; asked once before, so that who comes
-/// first does not pay for the cache.
+/// Times one query on the block from `first` on, in nanoseconds per pair. It is run once before, so that the first
+/// variant does not pay for the cache.
 fn time<T>(samples: &mut Vec<f64>, pairs: &[T], first: usize, ask: impl Fn(&T) -> bool) {
     let block = pairs.get(first..).unwrap_or_default();
     let block = &block[..block.len().min(BLOCK)];

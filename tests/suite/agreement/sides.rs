@@ -1,4 +1,4 @@
-//! Both dimensions under one face: what a pair says, what is exact, and how to move a body by very little.
+//! Both dimensions behind one trait: what a pair reports, what is exact, and how to move a body by very little.
 
 use asunder::{Collider, Collider2, Collider3, Plane, Pose2, Pose3, Shape2, Shape3, Volume};
 use asunder_narrow::{Pair2, Pair3, Separation2, Separation3};
@@ -7,7 +7,7 @@ use asunder_tests::engine::Engine;
 use asunder_tests::exact_overlap::{exact_overlap2, exact_overlap3};
 use glam::{DVec2, DVec3};
 
-/// What a pair answers.
+/// What a pair reports.
 pub(super) struct Facts {
     pub(super) overlaps: bool,
     pub(super) guess: bool,
@@ -17,37 +17,37 @@ pub(super) struct Facts {
     /// With a limit of zero, where it is measured.
     pub(super) within_nothing: Option<f32>,
     pub(super) distance: Option<f32>,
-    /// How many contact points there are without a margin.
+    /// Number of contact points without a margin.
     pub(super) points: usize,
 }
 
-/// A dimension, and what this suite asks of it.
+/// A dimension, and what these tests need of it.
 pub(super) trait Side: Engine {
-    /// `count` pairs of every hard family, each level in turn.
+    /// `count` pairs of every hard family, cycling through the levels.
     fn hard_pairs(count: usize, seed: u64) -> Vec<[Collider<Self>; 2]>;
-    /// What the narrow phase says.
+    /// What the narrow phase reports.
     fn facts(bodies: &[Collider<Self>; 2]) -> Facts;
-    /// What exact arithmetic says.
+    /// Whether they overlap by exact arithmetic.
     fn exactly_overlap(bodies: &[Collider<Self>; 2]) -> bool;
-    /// Whether both are half-spaces, which have no contact points unless they look exactly away from each other.
+    /// Whether both are half-spaces, which have no contact points unless they face exactly opposite ways.
     fn are_endless(bodies: &[Collider<Self>; 2]) -> bool;
-    /// The finite bounding radii of both, in metres.
+    /// The sum of the finite bounding radii, in metres.
     fn reach(bodies: &[Collider<Self>; 2]) -> f64;
     /// The pose moved by `metres` on every axis, towards the origin.
     fn stepped(pose: &Self::Pose, metres: f64) -> Self::Pose;
-    /// B's pose, moved by `metres` along the axis from A to B that the pair reports.
+    /// B's pose, moved by `metres` along the normal (from A to B) that the pair reports.
     fn along_normal(bodies: &[Collider<Self>; 2], metres: f64) -> Self::Pose;
-    /// B's pose with the coordinate moved by so many units in its last place, that on which the normal is longest, and
-    /// upwards where B lies upwards of A.
+    /// B's pose with one coordinate moved by `ulps`: the one along which the normal is longest, and upwards where B
+    /// lies above A.
     fn ulps_along(bodies: &[Collider<Self>; 2], ulps: i64) -> Self::Pose;
 }
 
-/// The value so many steps of f64 further up.
+/// The value moved up by `ulps` steps of f64.
 pub(super) fn ulps_up(value: f64, ulps: i64) -> f64 {
     (0..ulps.abs()).fold(value, |value, _| if ulps > 0 { value.next_up() } else { value.next_down() })
 }
 
-/// Less on the side where it is, so that no body leaves the world.
+/// Moves towards zero, so that no body leaves the world.
 fn towards_zero(value: f64, metres: f64) -> f64 {
     if value > 0.0 { value - metres } else { value + metres }
 }

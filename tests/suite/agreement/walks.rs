@@ -1,20 +1,20 @@
-//! Bodies that pass through touching, one unit in the last place at a time.
+//! Bodies that pass through touching, one ulp at a time.
 
 use super::check_frame;
 use super::sides::{Side, ulps_up};
 use asunder::{Collider, Event, Plane, Volume, World};
 
-/// In ulps of B's position from where the walk starts: out and in again, never by more than two.
+/// B's position in ulps from where the walk starts: out and in again, never by more than two at once.
 const WALK: [i64; 15] = [2, 1, 0, -1, 0, 1, 0, 0, 1, -1, -2, -1, 1, 2, 3];
 
-/// A square or cube of side 1 beside another: one ulp decides, and where is known without any arithmetic.
+/// A square or cube of side 1 beside another: one ulp decides, and where it does is known without any arithmetic.
 fn a_kiss_lasts_for_the_frames_it_lasts<S: Side>() {
     for origin in [0.0, -3.0, 1e3, 1e6, -1e8, 9e8] {
         let mut world = World::<S>::new();
         let keys = [origin, origin + 7.0].map(|x| S::insert(&mut world, S::unit_at(x)));
         let mut was = false;
         for ulps in WALK {
-            // From above one ulp is a step out, from below zero as well: `next_up` is further on the axis.
+            // One ulp is a step outwards, also below zero: `next_up` always increases the coordinate.
             assert!(S::set_pose(&mut world, keys[1], S::pose_at(ulps_up(origin + 1.0, ulps))));
             world.update();
             let is = ulps <= 0;
@@ -34,7 +34,7 @@ fn a_kiss_of_squares_lasts_for_the_frames_it_lasts() {
     a_kiss_lasts_for_the_frames_it_lasts::<Plane>();
 }
 
-/// Hard pairs that touch up to rounding, with a step of B by one ulp between frames.
+/// Hard pairs that touch up to rounding.
 fn touching_pairs<S: Side>(count: usize, seed: u64) -> Vec<[Collider<S>; 2]> {
     let near = |bodies: &[Collider<S>; 2]| {
         let facts = S::facts(bodies);
@@ -74,12 +74,12 @@ fn a_walk_through_touching_in_the_plane_is_told_frame_by_frame() {
     a_walk_through_touching_is_told_frame_by_frame::<Plane>();
 }
 
-/// Where B is in a frame of the next test.
+/// B's position in a frame of the next test.
 #[derive(Clone, Copy, Debug)]
 enum Stop {
-    /// So many shares of the reach along the normal.
+    /// A gap along the normal, as a share of the reach.
     Gap(f64),
-    /// So many ulps from where it was built.
+    /// A number of ulps from where it was built.
     Ulps(i64),
 }
 
@@ -99,12 +99,12 @@ const STOPS: [Stop; 13] = [
     Stop::Gap(0.5),
 ];
 
-/// With a margin of a tenth of the reach a record is kept for as long as the separation is within it; it begins with an
-/// overlap, and ends only with the record.
+/// With a margin of a tenth of the reach, a record is kept as long as the separation is within it. It begins with an
+/// overlap, and ends only when the record does.
 fn a_margin_keeps_the_record_and_not_the_beginning<S: Side>() {
     let (mut records, mut apart, mut begun_late) = (0, 0, 0);
     for bodies in touching_pairs::<S>(16, 93) {
-        // On both bodies, and the two are added.
+        // On both bodies, and the two add up.
         let margin = (0.05 * S::reach(&bodies)) as f32;
         let mut world = World::<S>::new();
         let keys = bodies.clone().map(|body| S::insert(&mut world, body.margin(margin).unwrap()));

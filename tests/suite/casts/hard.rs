@@ -1,4 +1,4 @@
-//! Places where casts commonly fail: far out, grazing, endless motion, tiny bodies.
+//! Cases in which casts commonly fail: far out, grazing, endless motion, tiny bodies.
 
 use super::Course;
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
@@ -27,7 +27,7 @@ fn tiny_bodies_far_from_the_origin_meet_where_f64_says() {
         let case = Case3 { shape_a: cube.clone(), pose_a, shape_b: cube.clone(), pose_b };
         let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
         let impact = pair.cast(moved).unwrap();
-        // A metre of f64 is 1.5e-8 there.
+        // At that distance f64 resolves 1.5e-8 m.
         assert!(impact.error < 2e-7 && impact.fraction > 0.4 && impact.fraction < 0.5, "{impact:?}");
         Course { case: &case, motions: [Motion3::shift(moved).unwrap(), still()] }.check(Some(impact), "far");
     }
@@ -58,7 +58,7 @@ fn grazing_passes_are_told_by_a_hundred_thousandth() {
     let (radius, way) = (1.0_f32, Vec3::X * 8.0);
     for share in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
         for (sign, is_hit) in [(-1.0, true), (1.0, false)] {
-            // Two balls that pass each other with this much between them, or this deep.
+            // Two balls that pass each other with this gap, or overlap by it.
             let between = sign * share;
             let (here, there) = (Pose3::IDENTITY, Pose3::at([4.0, 2.0 + between, 0.0]).unwrap());
             let shape = ball(radius);

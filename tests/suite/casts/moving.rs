@@ -73,13 +73,13 @@ fn both_moving_is_one_moving_against_the_other() {
         let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
         let impact = pair.impact(&motions[0], &motions[1]);
         Course { case, motions }.check(impact, &format!("{} {} {seed}", a.0, b.0));
-        // Swapped, it is the same seen from the other side.
+        // Swapped, the result is mirrored.
         let back = Pair3::new(&case.shape_b, &case.pose_b, &case.shape_a, &case.pose_a);
         let mirrored = back.impact(&motions[1], &motions[0]);
         assert_eq!(impact.is_some(), mirrored.is_some(), "{case:?}");
         if let (Some(one), Some(other)) = (impact, mirrored) {
             let way = (motions[0].displacement() - motions[1].displacement()).length();
-            // Where the path grazes, a gap of the error is many errors long.
+            // Where the path only grazes, the gap changes by the error over many times its length.
             let gap = |fraction: f64| Course { case, motions }.separation(fraction).0;
             let room = f64::from(one.error + other.error);
             let is_near = (one.fraction - other.fraction).abs() * way <= 4.0 * room

@@ -1,4 +1,4 @@
-//! parry3d's word on casts and rays, outside a band.
+//! Casts and rays against parry3d, outside a band.
 
 use crate::shapes_peer::{pose_of, twin, vector};
 use asunder_geometry::glam::Vec3;
@@ -8,7 +8,7 @@ use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS3};
 use parry3d::query::{Ray, ShapeCastOptions, cast_shapes};
 
-/// Share of a pair's size within which parry's answers are not held against ours.
+/// Share of a pair's size within which parry's answers are not compared with ours.
 const BAND: f64 = 1e-3;
 
 #[test]
@@ -16,7 +16,7 @@ fn shapes_meet_where_parry_says() {
     let (mut compared, mut refuted) = (0, 0);
     for seed in 0..6000 {
         let mut random = Random::new(seed);
-        // Those that parry's cast knows, and that are bounded: no compounds, which it walks by itself.
+        // Kinds that parry's cast supports, and that are bounded; no compounds, which it handles on its own.
         let kinds = [0, 1, 2, 4, 8, 9];
         let (a, b) = (kinds[random.below(6)], kinds[random.below(6)]);
         let (shape_a, shape_b) =
@@ -41,7 +41,7 @@ fn shapes_meet_where_parry_says() {
         let Ok(theirs) = theirs else { continue };
         compared += 1;
         let band = BAND * reach;
-        // A pass that grazes may go either way.
+        // A pass that grazes may be a hit or a miss.
         let apart_at = |fraction: f64| {
             let pose = Pose3::new(moved.as_dvec3() * fraction, pose_a.rotation()).unwrap();
             match Pair3::new(&shape_a, &pose, &shape_b, &pose_b).separation(f32::INFINITY) {
@@ -57,13 +57,13 @@ fn shapes_meet_where_parry_says() {
                     || apart_at(theirs).abs() <= band
             }
             (Some(ours), None) => {
-                // Then our own place must be an impact, by the judge.
+                // Then our pose must be an impact, by the oracle.
                 apart_at(ours.fraction).abs() <= f64::from(ours.error) + 1e-6 * reach
             }
             (None, Some(theirs)) => apart_at(theirs.time_of_impact.into()).abs() <= band,
         };
         if !agrees {
-            // Whoever is right: ours is where the shapes are next to each other, theirs is not.
+            // Whichever is right: at our fraction the shapes touch, at theirs they do not.
             let ours = ours.unwrap();
             assert!(
                 apart_at(ours.fraction).abs() <= f64::from(ours.error) + 1e-6 * reach,
@@ -100,6 +100,6 @@ fn rays_meet_where_parry_says() {
         };
         refuted += usize::from(!agrees);
     }
-    // Rays that graze: the sampled judge of the test beside this one has the last word on ours.
+    // Rays that graze: the sampled oracle of the test beside this one decides about ours.
     assert!(compared > 5000 && refuted * 100 < compared, "{refuted} of {compared} differ");
 }

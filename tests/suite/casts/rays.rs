@@ -7,7 +7,7 @@ use asunder_narrow::{Pair3, Separation3, cast_ray3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{KINDS3, PLACES, pair3};
 
-/// How far a point is from a shape, with its error: below zero inside.
+/// Signed distance of a point from a shape, negative inside, and its error.
 fn separation(shape: &Shape3, pose: &Pose3, point: DVec3) -> (f64, f64) {
     let dot = Shape3::from(Hull::of_any_dimension(&[Vec3::ZERO]).unwrap());
     let place = Pose3::at(point).unwrap();
@@ -43,7 +43,7 @@ fn a_ray_meets_nothing_before_its_hit_and_the_surface_there() {
                 continue;
             };
             let pace = ray.direction().as_dvec3().length();
-            // What the positions of points on the ray lose.
+            // Rounding of the positions of points on the ray.
             let lost = 4.0 * f64::EPSILON * (from.abs().element_sum() + 8.0 * size) + 1e-13 * size;
             let hit = cast_ray3(shape, pose, &ray, f64::INFINITY);
             let told = format!("{} {round}: {hit:?} {shape:?} {pose:?} {ray:?}", kind.0);
@@ -79,7 +79,7 @@ fn a_ray_meets_nothing_before_its_hit_and_the_surface_there() {
     assert!(hits > 2000 && misses > 200 && inside > 500, "{hits} {misses} {inside}");
 }
 
-/// By how much a hull's faces may be beside its vertices.
+/// How far a hull's faces may be off its vertices.
 fn planar(shape: &Shape3) -> f64 {
     match shape {
         Shape3::Hull(hull) => 4.0 * f64::from(hull.planarity_error()),
@@ -118,7 +118,7 @@ fn no_ray_slips_between_triangles_that_share_an_edge() {
         let on_edge = pose.transform(a.as_dvec3().lerp(b.as_dvec3(), random.between(0.01, 0.99)));
         let from = on_edge + random.direction() * 5.0;
         let ray = Ray3::new(from, (on_edge - from).as_vec3()).unwrap();
-        // The direction was rounded to f32: aim by the origin instead.
+        // The direction was rounded to f32: aim by moving the origin instead.
         let ray = Ray3::new(on_edge - ray.direction().as_dvec3(), ray.direction()).unwrap();
         let hit = [one, other].map(|triangle| cast_ray3(&triangle.into(), &pose, &ray, f64::INFINITY));
         assert!(hit.iter().any(Option::is_some), "{seed}: {ray:?} {pose:?} {a} {b} {c} {d}");

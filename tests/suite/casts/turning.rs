@@ -8,13 +8,13 @@ use asunder_narrow::Pair3;
 use asunder_tests::cases::{Case3, Random};
 use asunder_tests::shapes::{KINDS3, PLACES, pair3};
 
-/// A rotation to be reached: near, any, the same with the other sign, exactly half a turn away.
+/// A target rotation: near, any, the same with the other sign, exactly half a turn away.
 fn reached(random: &mut Random, from: Quat) -> Quat {
     let [x, y, z, w] = from.to_array();
     match random.below(6) {
         0 => from,
         1 => Quat::from_xyzw(-x, -y, -z, -w),
-        // Square to it as four numbers.
+        // Orthogonal to it as a four-vector.
         2 => Quat::from_xyzw(-y, x, -w, z),
         3 => Quat::from_xyzw(-w, z, -y, x),
         4 => Quat::from_xyzw(x + 0.125 * w, y, z - 0.0625 * w, w - 0.125 * x + 0.0625 * z),
@@ -62,7 +62,7 @@ fn nothing_that_turns_touches_before_it_is_said_to() {
             }
         }
     }
-    // Two half-spaces of which one turns have no nearer answer than the start.
+    // For two half-spaces of which one turns there is no answer closer than the start.
     assert!(hits > 500 && misses > 300 && wide < hits / 50, "{hits} {misses} {wide}");
 }
 
@@ -74,7 +74,7 @@ fn thin_rods_that_spin_fast_never_pass_through_posts() {
     let still = Motion3::shift(Vec3::ZERO).unwrap();
     for (seed, post) in (0..200).zip([&post, &line].into_iter().cycle()) {
         let mut random = Random::new(seed);
-        // Off the rod at the start and at the end, which the sampling of a game would show alone.
+        // Off the rod at the start and at the end, the only poses that a game's sampling would see.
         let at = DVec3::new(random.between(-0.5, 0.5), random.between(0.1, 2.9), 0.0);
         let half = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0)).unwrap();
         let case = Case3 {
@@ -86,7 +86,7 @@ fn thin_rods_that_spin_fast_never_pass_through_posts() {
         let pair = Pair3::new(&case.shape_a, &case.pose_a, &case.shape_b, &case.pose_b);
         let impact = pair.impact(&half, &still).unwrap();
         Course { case: &case, motions: [half, still] }.check(Some(impact), "rod");
-        // The rod's middle line stands where the post does, up to both widths.
+        // The rod's centre line passes through the post, up to both widths.
         let along = half.turn(&case.pose_a).basis_at(impact.fraction).x;
         let beside = along.cross(at).length();
         assert!(beside < 4e-3 && impact.error < 1e-5, "{beside} {impact:?}");

@@ -1,4 +1,4 @@
-//! Rays, shapes that move and turn, and who walks.
+//! Rays, shapes that move and turn, and characters that walk.
 
 use super::{at, chain, cut_line, noise, sliders, towards, turned};
 use asunder::glam::{DVec2, Vec2};
@@ -17,7 +17,7 @@ fn rugged(random: &mut Random, count: usize, is_closed: bool) -> Chain {
     if is_closed { Chain::closed(vertices) } else { Chain::open(vertices) }.unwrap()
 }
 
-/// The front of a segment, in the world.
+/// The direction that a segment's front faces, in the world's axes.
 fn front(segment: &Shape2, pose: &Pose2) -> DVec2 {
     let Shape2::Segment(segment) = segment else { panic!("a segment") };
     let [from, to] = segment.ends().map(Vec2::as_dvec2);
@@ -71,12 +71,12 @@ fn no_ray_slips_through_between_two_segments() {
             let from = to + towards(f64::from(i)) * 30.0;
             let ray = Ray2::new(from, ((to - from) * 2.0).as_vec2()).unwrap();
             let hit = cast_ray2(&ground, &pose, &ray, 1.0);
-            // Where it only grazes a corner's tip, it may pass.
+            // A ray that only grazes the tip of a corner may pass.
             let is_crossing = segments(&chain).any(|segment| cast_ray2(&segment, &pose, &ray, 1.0).is_some());
             assert_eq!(hit.is_some(), is_crossing);
         }
     }
-    // Through a straight line, at the very vertices, it never does.
+    // Through a straight line, even exactly at its vertices, a ray never passes.
     let line = Chain::open(cut_line(DVec2::new(8.0, 1.0), DVec2::new(-8.0, -2.0), 200)).unwrap();
     let ground = Shape2::from(line.clone().one_sided());
     for &vertex in &line.vertices()[1..200] {
@@ -150,8 +150,7 @@ fn a_shape_that_moves_meets_what_it_meets_first_of_all_segments() {
     assert!(counts.iter().all(|&count| count > 40), "{counts:?}");
 }
 
-/// What rests on a line, or hovers over it by next to nothing, and is cast along it, meets nothing that stands in its
-/// way.
+/// A body that rests on a line, or hovers a tiny gap above it, and is cast along it hits nothing that stops it.
 #[test]
 fn a_cast_along_a_line_that_was_cut_is_told_of_no_edge() {
     let mut met = 0;
@@ -203,7 +202,7 @@ fn casts_pass_one_sided_ground_from_behind() {
     }
 }
 
-/// A thousand segments on a line, up a gentle slope, and down again: nobody trips or stops.
+/// A thousand segments on a line, up a gentle slope, and down again: the character neither trips nor stops.
 #[test]
 fn a_character_walks_over_a_thousand_segments() {
     for (slope, is_one_sided) in [(0.0, true), (0.0, false), (0.25, true), (-0.3, false)] {
@@ -242,7 +241,7 @@ fn a_character_walks_over_a_thousand_segments() {
     }
 }
 
-/// A character jumps up through a one-sided platform, and stands on it when it comes down.
+/// A character jumps up through a one-sided platform, and lands on it on the way down.
 #[test]
 fn a_character_jumps_through_a_platform_and_lands_on_it() {
     let mut world = World2::new();
@@ -268,9 +267,9 @@ fn a_character_jumps_through_a_platform_and_lands_on_it() {
     }
 }
 
-/// Symptom: who came down beside the tip of a wall of no width, drawn up and back down with one side, went into it as
-/// far as its middle came. Cause: at the tip the chain turns by all of a half turn, which counted as no corner, so that
-/// nothing was met that looked past the face on whose side the middle was.
+/// Symptom: bodies that came down beside the tip of a wall of zero width, a one-sided chain drawn up and back down,
+/// sank into it until their centre reached it. Cause: at the tip the chain turns by exactly half a turn, which did not
+/// count as a corner, so that no normal was accepted that faced past the face on whose side the centre was.
 #[test]
 fn a_wall_of_no_width_is_the_same_with_one_side_and_with_two() {
     let shapes: [Shape2; 4] = [
@@ -280,7 +279,7 @@ fn a_wall_of_no_width_is_the_same_with_one_side_and_with_two() {
         Capsule2::from_half_height(0.4, 0.3).unwrap().into(),
     ];
     let mut met = 0;
-    // Back all of the way, and a quarter of it.
+    // Drawn back all the way, and a quarter of it.
     for back in [0.0, 0.75] {
         let vertices = [[3.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, back], [-3.0, back]].map(Vec2::from);
         let two_sided = Chain::open(vertices).unwrap();
@@ -294,7 +293,7 @@ fn a_wall_of_no_width_is_the_same_with_one_side_and_with_two() {
                 let pair = Pair2::new(shape, &from, wall, &Pose2::IDENTITY);
                 pair.cast(way).map(|impact| (impact.fraction, impact.normal))
             });
-            // The side that it is asked of first is found with another last digit.
+            // The side that is tested first gives another last digit.
             let is_same = match (one, two) {
                 (Some((at, normal)), Some((then, other))) => {
                     (at - then).abs() < 1e-8 && (normal - other).length() < 1e-6

@@ -1,4 +1,4 @@
-//! What is asked about the set of points of a chain.
+//! Queries about a chain as a set of points.
 
 use asunder_geometry::{Chain, Pose2, Shape2};
 use asunder_narrow::{Pair2, Separation2};
@@ -10,7 +10,7 @@ use asunder_tests::precise;
 use asunder_tests::shapes::{CHAINS, KINDS2, PLACES, pair2};
 use glam::{DVec2, Vec2};
 
-/// Each chain with each other kind and with each chain, in every kind of place, either of them first.
+/// Calls `check` with each chain against every other kind and every chain, in every kind of pose, in both orders.
 fn for_all(rounds: usize, seed: u128, mut check: impl FnMut(&Bodies2)) {
     for (a, chain) in CHAINS.iter().enumerate() {
         for (b, other) in KINDS2.iter().chain(&CHAINS).enumerate() {
@@ -28,7 +28,8 @@ fn shapes(bodies: &Bodies2) -> ((&Shape2, &Pose2), (&Shape2, &Pose2)) {
     ((&case.shape_a, &case.pose_a), (&case.shape_b, &case.pose_b))
 }
 
-/// Of rounded shapes and half-planes the simplex cannot judge: there, the numbers do where they are clear.
+/// The exact simplex oracle cannot handle rounded shapes and half-planes; for those, numbers decide where they are
+/// clear.
 #[test]
 fn yes_or_no_is_exact() {
     let (mut counts, mut asked) = ([0; 2], 0);
@@ -109,7 +110,7 @@ fn a_limit_hides_only_what_is_beyond_it() {
     assert!(counts.iter().all(|&count| count > 300), "{counts:?}");
 }
 
-/// The index leads to what a loop over all segments finds.
+/// The index finds what a loop over all segments finds.
 #[test]
 fn a_long_chain_is_the_least_of_its_segments() {
     let mut random = Random::new(8400);
@@ -178,7 +179,7 @@ fn a_two_sided_chain_that_is_overlapped_always_has_a_point_and_points_lie_on_bot
                 let (on_a, on_b) = (point.anchor_a.as_dvec2(), point.anchor_b.as_dvec2());
                 let between = on_b + (b.1.position() - a.1.position()) - on_a;
                 let along = between.dot(manifold.normal.as_dvec2());
-                // Anchors are f32: of a pair far apart in size, what the larger one rounds to.
+                // Anchors are f32: for a pair of very different sizes, they round as the larger one does.
                 let slack = 1e-5 * size;
                 assert!((along - f64::from(point.separation)).abs() < slack, "{point:?} {bodies:?}");
                 counts[1] += 1;

@@ -1,4 +1,4 @@
-//! What bodies run into next that touch a chain already: its walls, and not its vertices.
+//! What bodies that already touch a chain run into next: its walls, and not its vertices.
 
 use super::cut_line;
 use asunder::glam::{DVec2, Vec2};
@@ -8,7 +8,7 @@ use asunder::{
 };
 use asunder_tests::cases::Random;
 
-/// Bodies, and how far they reach down and sideways.
+/// Bodies, with how far they reach down and sideways.
 fn bodies() -> Vec<(Shape2, f64, f64)> {
     let balls = [0.3, -0.3].map(|x| (Pose2::at([x, 0.0]).unwrap(), Shape2::from(Circle::new(0.25).unwrap())));
     vec![
@@ -25,7 +25,7 @@ fn what_touches_its_floor_runs_over_its_vertices_and_into_its_wall() {
     for seed in 0..2000 {
         let mut random = Random::new(seed);
         let (shape, down, ahead) = bodies().swap_remove(random.below(4));
-        // From right to left, so that the front of one with one side looks up; the wall at the right end comes first.
+        // From right to left, so that the front of a one-sided chain faces up; the wall at the right end comes first.
         let mut line = vec![Vec2::new(6.0, 3.0)];
         line.extend(cut_line(DVec2::new(6.0, 0.0), DVec2::new(-6.0, 0.0), 1 + random.below(60)));
         let yard = Chain::open(line).unwrap();
@@ -92,8 +92,7 @@ fn nothing_that_touches_a_rough_chain_comes_through_it() {
             let into = impact.normal.as_dvec2().dot(way);
             assert!(into > 0.0 && !impact.overlapping, "{seed}: {impact:?}");
         }
-        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed
-        // in.
+        // How far it goes into the slope that it touches is left to that contact, and adds to how far it is pressed in.
         let into = |manifold: Manifold2| manifold.normal.as_dvec2().dot(way).max(0.0) * fraction;
         let sunk = pressed + radius / 32.0 + pair.manifolds(0.0).into_iter().map(into).fold(0.0, f64::max);
         if sunk < 0.9 * radius {
@@ -150,7 +149,7 @@ fn a_floor_of_tiles_in_a_compound_stops_nobody_and_its_wall_does() {
     }
 }
 
-/// Asks a question when its thread ends, and what memory the thread had for questions is gone.
+/// Runs a query when its thread ends, after the thread's query buffers are gone.
 struct LastWish(std::sync::mpsc::Sender<bool>);
 
 impl LastWish {
@@ -174,7 +173,7 @@ fn a_thread_that_is_about_to_end_may_ask() {
     thread_local!(static WISH: std::cell::RefCell<Option<LastWish>> = const { std::cell::RefCell::new(None) });
     let (sender, answers) = std::sync::mpsc::channel();
     let thread = std::thread::spawn(move || {
-        // What is made last goes first: the memory for questions.
+        // Thread-locals that are created last are dropped first: the query buffers.
         WISH.with(|wish| *wish.borrow_mut() = Some(LastWish(sender)));
         LastWish::ask()
     });

@@ -1,4 +1,4 @@
-//! Bodies slide over straight lines that were cut into segments, and never notice.
+//! Bodies slide over straight lines that are cut into segments, and do not notice the cuts.
 
 use super::{chain, cut_line, noise, sliders, towards, turned};
 use asunder::glam::{DVec2, Vec2};
@@ -8,21 +8,21 @@ use std::collections::BTreeSet;
 /// Sine of 0.01 degrees.
 const STRAIGHT: f64 = 1.745e-4;
 
-/// A body in the air above ground, without spin.
+/// A body above ground, without spin.
 struct Slider<'w> {
     ground: (&'w Shape2, Pose2),
-    /// Whether the ground is asked as A.
+    /// Whether the ground is A.
     is_first: bool,
     body: &'w Shape2,
     pose: Pose2,
     velocity: DVec2,
-    /// Out of the ground, and how strongly everything falls the other way.
+    /// Out of the ground, against gravity.
     up: DVec2,
 }
 
 impl Slider<'_> {
-    /// One step of a sixtieth: falls, moves, and is pushed out of what it is in. Manifolds have normals out of the
-    /// ground.
+    /// One step of a sixtieth of a second: falls, moves, and is pushed out of what it overlaps. Returns manifolds with
+    /// normals out of the ground.
     fn step(&mut self) -> Vec<Manifold2> {
         let dt = 1.0 / 60.0;
         self.velocity -= self.up * (10.0 * dt);
@@ -55,7 +55,7 @@ impl Slider<'_> {
     }
 }
 
-/// A line of ground in the world: a chain with a front that looks up, where its middle is, along, and up.
+/// A straight chain in the world whose front faces up: its middle, the direction along it, and up.
 struct Line {
     ground: Shape2,
     pose: Pose2,
@@ -78,7 +78,7 @@ fn line(i: usize, is_one_sided: bool) -> Line {
     Line { ground: chain.into(), pose, middle: (start + end) * 0.5, along, up: -along.perp() }
 }
 
-/// Slides over a line at a speed, from 8 m before its middle; returns the names of the points it stood on.
+/// Slides over a line at a speed, from 8 m before its middle; returns the feature ids of the points that it stood on.
 fn slide(
     line: &Line,
     (name, body, foot): (&str, &Shape2, f64),
@@ -111,7 +111,7 @@ fn slide(
             }
         }
         assert!(manifolds.len() == 1, "{name} {step}: {manifolds:?}");
-        // Where positions are f64 of 7e8 m, they round to 1e-7 m.
+        // At 7e8 m, f64 positions are rounded to 1e-7 m.
         let height = line.up.dot(slider.pose.position() - line.middle) - foot;
         assert!(height.abs() < 1e-4, "{name} {step}: {height}");
         let now = slider.velocity.dot(line.along);
@@ -129,7 +129,7 @@ fn nothing_trips_over_a_line_that_was_cut_at_any_angle_distance_and_speed() {
         for (name, body, foot) in &sliders() {
             let speed = [3.0, -7.0, 20.0, -60.0, 1.3][i % 5];
             let names = slide(&line, (name, body, *foot), 0.0, speed);
-            // Of a body that lies flat, both its corners or edges, and one straight run.
+            // A body that lies flat has both its corners or edges, on one straight run.
             let most = if *name == "circle" { 1 } else { 2 };
             assert!(names.len() == most, "{name}: {names:?}");
         }
@@ -155,11 +155,11 @@ fn a_corner_that_slides_keeps_its_name() {
     }
 }
 
-/// Where a closed chain begins is nowhere in particular.
+/// Where a closed chain begins makes no difference.
 #[test]
 fn the_seam_of_a_closed_chain_is_not_felt() {
     for i in 0..8 {
-        // Counter-clockwise, with its beginning in the middle of its upper side.
+        // Counter-clockwise, starting in the middle of its upper side.
         let top = cut_line(DVec2::new(20.0, 0.0), DVec2::new(-20.0, 0.0), 120);
         let (right, left) = top.split_at(50 + i);
         let mut vertices = left.to_vec();
@@ -184,7 +184,7 @@ fn the_seam_of_a_closed_chain_is_not_felt() {
     }
 }
 
-/// Deep below the surface a tiny segment's own least axis leads sideways.
+/// Deep below the surface, the axis of least penetration of a tiny segment alone points sideways.
 #[test]
 fn depth_leads_out_of_the_ground_and_not_along_it() {
     let [mut touched, mut rounded_off] = [0; 2];
@@ -198,7 +198,7 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
                     let pose = Pose2::new(at, level).unwrap();
                     let pair = Pair2::new(&line.ground, &line.pose, body, &pose);
                     let manifolds = pair.manifolds(0.0);
-                    // A micrometre may be less than what rounding took from the vertices.
+                    // A micrometre may be less than the rounding of the vertices.
                     if depth < 1e-5 && !pair.overlaps() {
                         assert!(manifolds.is_empty(), "{name} {depth}: {manifolds:?}");
                         rounded_off += 1;
@@ -219,7 +219,7 @@ fn depth_leads_out_of_the_ground_and_not_along_it() {
     assert!(touched > 2 * rounded_off, "a micrometre deep: {touched} touch, {rounded_off} do not");
 }
 
-/// Two runs, whose normals differ by less than can be told, and by more than rounding: one manifold, as wide as the
+/// Two runs whose normals differ by more than rounding, but too little to tell apart: one manifold, as wide as the
 /// body.
 #[test]
 fn a_line_that_is_all_but_straight_is_one_to_a_body_that_lies_on_it() {

@@ -13,14 +13,15 @@ fn square(half: f32) -> Shape2 {
     Rect::from_half_extents(Vec2::splat(half)).unwrap().into()
 }
 
-/// Manifolds with normals out of the ground, whichever body comes first.
+/// Manifolds with normals out of the ground; asserts that the order of the bodies does not matter.
 fn manifolds(chain: &Chain, body: &Shape2, pose: &Pose2, margin: f32) -> Vec<Manifold2> {
     let ground = Shape2::from(chain.clone());
     let found = Pair2::new(&ground, &Pose2::IDENTITY, body, pose).manifolds(margin);
     let other = Pair2::new(body, pose, &ground, &Pose2::IDENTITY).manifolds(margin);
     assert_eq!(found.len(), other.len(), "{found:?} {other:?}");
     for (one, other) in found.iter().zip(&other) {
-        // Which of two faces is the reference may differ by as much as it may regret: a few 1e-6 of tilt.
+        // The choice of the reference face may differ, and the normals with it, by the tilt within the preference: a
+        // few 1e-6.
         assert!((one.normal + other.normal).length() < 1e-5, "{one:?} {other:?}");
         assert!(
             (one.separation - other.separation).abs() <= one.error + other.error + 4e-6,
@@ -30,12 +31,12 @@ fn manifolds(chain: &Chain, body: &Shape2, pose: &Pose2, margin: f32) -> Vec<Man
     found
 }
 
-/// A wall on the left of (0, 0) up to it, and a roof from there to the left: seen from above right.
+/// A wall that ends at (0, 0), and a roof from there to the left: its front faces up and right.
 fn ledge() -> Chain {
     chain(&[(0.0, -5.0), (0.0, 0.0), (-2.0, 0.0), (-5.0, 0.0)])
 }
 
-/// A wall that stands on a floor: seen from above left.
+/// A wall that stands on a floor: its front faces up and left.
 fn nook() -> Chain {
     chain(&[(0.0, 5.0), (0.0, 2.0), (0.0, 0.0), (-0.5, 0.0), (-5.0, 0.0)]).one_sided()
 }
@@ -49,7 +50,7 @@ fn over_a_smooth_arc_normals_stay_among_those_of_the_segments_that_are_near() {
             points.push((towards(angle) * radius).as_vec2());
             angle += if i % 5 == 3 { 1e-5 } else { 0.004 + 0.003 * noise(i) };
         }
-        // The front is on the right: outside of an arc that turns left.
+        // The front is on the right: the outside of an arc that turns left.
         if !is_hill {
             points.reverse();
         }
@@ -59,7 +60,7 @@ fn over_a_smooth_arc_normals_stay_among_those_of_the_segments_that_are_near() {
             for i in 0..120 {
                 let place = towards(0.6 + 0.008 * f64::from(i));
                 let up = if is_hill { place } else { -place };
-                // Bodies wider than a point stand higher over a hollow; deep enough for all.
+                // Wide bodies stand higher over a hollow; this is deep enough for all.
                 let pose = Pose2::new(place * radius + up * (foot - 0.01), turned(-up.perp())).unwrap();
                 let found = manifolds(&arc, body, &pose, 0.0);
                 assert!(!found.is_empty(), "{name} {i}");
@@ -95,7 +96,7 @@ fn over_a_smooth_arc_normals_stay_among_those_of_the_segments_that_are_near() {
 fn a_corner_is_met_as_a_corner() {
     for ground in [ledge(), ledge().one_sided()] {
         for i in 1..9 {
-            // From the right to straight up, both still the corner's own.
+            // Between pointing right and straight up, the corner's normals.
             let away = towards(core::f64::consts::FRAC_PI_2 * f64::from(i) / 9.0);
             let pose = Pose2::at(away * 0.45).unwrap();
             let found = manifolds(&ground, &circle(0.5), &pose, 0.0);
@@ -105,7 +106,7 @@ fn a_corner_is_met_as_a_corner() {
                     && (found[0].separation + 0.05).abs() < 1e-6
             );
             assert_eq!(found[0].points[0].feature.a(), Feature::Vertex(1));
-            // A face that leans over the corner has its own normal.
+            // A face that leans over the corner gives its own normal.
             let leaning = Pose2::new(away * 0.45, turned(away)).unwrap();
             let found = manifolds(&ground, &square(0.5), &leaning, 0.0);
             assert_eq!(found.len(), 1, "{found:?}");
@@ -115,7 +116,7 @@ fn a_corner_is_met_as_a_corner() {
     }
 }
 
-/// What stands on a ledge and is tilted by nothing, either way, is not pushed off it.
+/// A body on a ledge that is tilted by next to nothing, either way, is not pushed off it.
 #[test]
 fn on_a_ledge_nothing_pushes_sideways() {
     for ground in [ledge(), ledge().one_sided()] {
@@ -128,7 +129,7 @@ fn on_a_ledge_nothing_pushes_sideways() {
                             let normal = manifold.normal.as_dvec2();
                             // A round body beyond the edge rolls off it.
                             let is_round = *name == "circle" && x > 0.0;
-                            // A hexagon's own faces rise at 60 degrees.
+                            // A hexagon's side faces rise at 60 degrees.
                             let is_over =
                                 is_round || normal.perp_dot(DVec2::Y).abs() <= 2.0 * f64::abs(tilt) + 1e-5;
                             assert!(is_over && normal.y > 0.8, "{name} {tilt} {depth} {x}: {manifold:?}");
@@ -166,11 +167,11 @@ fn loose_ends_are_met_from_all_around() {
         let pose = Pose2::at(away * 0.45).unwrap();
         let found = manifolds(&platform, &circle(0.5), &pose, 0.0);
         assert!(found.len() == 1 && (found[0].normal.as_dvec2() - away).length() < 1e-6, "{found:?}");
-        // A body behind the line is not seen from its front.
+        // A body behind the line has no contact with its front.
         let found = manifolds(&platform.clone().one_sided(), &circle(0.5), &pose, 0.0);
         assert_eq!(found.len(), usize::from(i >= 0), "{found:?}");
     }
-    // A box beside the end, its centre above the line, tilted by nothing either way.
+    // A box beside the end, its centre above the line, tilted by next to nothing either way.
     for tilt in [0.0, 1e-6, -1e-6, 1e-3, -1e-3] {
         let pose = Pose2::new([0.499, 0.2], turned(towards(tilt))).unwrap();
         for platform in [platform.clone(), platform.clone().one_sided()] {
@@ -188,7 +189,7 @@ fn one_side_lets_through_from_behind_and_two_sides_do_not() {
     let ground = chain(&[(5.0, 0.0), (1.0, 0.0), (-5.0, 0.0)]);
     let platform = ground.clone().one_sided();
     for (name, body, foot) in &sliders() {
-        // On the way up: nothing, until the centre is above.
+        // On the way up: no contact until the centre is above.
         for i in 0..40 {
             let y = -2.0 * foot + 0.1 * foot * f64::from(i) + 1e-3;
             let pose = at(0.3, y);
@@ -196,7 +197,7 @@ fn one_side_lets_through_from_behind_and_two_sides_do_not() {
             let expected = usize::from(y > 0.0 && y < *foot);
             assert_eq!(found.len(), expected, "{name} {y}: {found:?}");
             assert!(found.iter().all(|manifold| manifold.normal == Vec2::Y), "{name} {y}: {found:?}");
-            // Of two sides, the nearer one; the set of points is the same for both.
+            // Two-sided: the nearer side; the set of points is the same for both.
             let found = manifolds(&ground, body, &pose, 0.0);
             let up = if y > 0.0 { Vec2::Y } else { Vec2::NEG_Y };
             assert!(found.iter().all(|manifold| manifold.normal == up), "{name} {y}: {found:?}");
@@ -207,7 +208,7 @@ fn one_side_lets_through_from_behind_and_two_sides_do_not() {
     }
 }
 
-/// Two faces a millimetre apart: what is a centimetre deep in one is behind the other.
+/// Two faces a millimetre apart: a body a centimetre deep in one is behind the other.
 #[test]
 fn a_thin_wall_pushes_back_to_where_a_body_came_from() {
     let half = 5e-4;
@@ -232,7 +233,7 @@ fn a_thin_wall_pushes_back_to_where_a_body_came_from() {
 
 #[test]
 fn a_plank_on_stairs_has_one_manifold_with_two_points() {
-    // Down to the left; each step a metre deep, from -8 to 0, all of one height where it lies: a row of posts.
+    // Down to the left; each gap a metre deep, from -8 to 0, tops all at one height: a row of posts.
     let mut points = Vec::new();
     for i in 0..8 {
         let x = -(i as f32);
@@ -247,8 +248,9 @@ fn a_plank_on_stairs_has_one_manifold_with_two_points() {
     assert!(width > 4.0, "the outermost of what it lies on: {found:?}");
 }
 
-/// Symptom: a stick across a peak that is seen from below was told 7 to 25 cm deep in it, 5 cm from touching it.
-/// Cause: what lay over a piece was told along its normal also where it had come behind it, past its end.
+/// Symptom: a stick across a peak that is seen from below was reported 7 to 25 cm deep in it, 5 cm from touching it.
+/// Cause: what lay over a segment was measured along its normal even where it was behind the segment's line, past its
+/// end.
 #[test]
 fn what_passes_by_the_end_of_a_piece_is_not_deep_in_it() {
     let peak = chain(&[(-1.0, -1.0), (0.0, 0.0), (1.0, -1.0)]).one_sided();
@@ -260,12 +262,13 @@ fn what_passes_by_the_end_of_a_piece_is_not_deep_in_it() {
             assert!(manifold.points.iter().all(|point| is_as_far(point.separation)), "{gap}: {manifold:?}");
         }
     }
-    // Once it touches the piece that it is in front of, it is pushed out of all of it.
+    // Once it touches the segment that it is in front of, it is pushed out of all of it.
     let found = manifolds(&peak, &stick, &at(0.0, -1e-3), 0.1);
     assert!(found.len() == 1 && found[0].separation < -0.2, "{found:?}");
 }
 
-/// How far a point is from the core of a rounded body, and the nearest point of that core; both in the body's axes.
+/// The distance of a point from the core of a rounded body, and the closest point of that core; both in the body's
+/// axes.
 fn from_core(core: &[Vec2], point: DVec2) -> (f64, DVec2) {
     let nearest = |i: usize| {
         let [from, to] = [core[i], core[(i + 1) % core.len()]].map(Vec2::as_dvec2);
@@ -277,10 +280,10 @@ fn from_core(core: &[Vec2], point: DVec2) -> (f64, DVec2) {
     (far(&foot), foot)
 }
 
-/// Symptom: where a capsule was pushed out of a hollow along the normal of a piece that it is tilted to, its anchor lay
-/// up to 0.98 of its radius inside it, and was told to be as much less deep than the capsule is there. Cause: where the
-/// end of the piece cuts off the side of a core, that was moved out along the normal, as corners are that look that
-/// way, and not to the surface that is there.
+/// Symptom: where a capsule was pushed out of a hollow along the normal of a segment that it is tilted to, its anchor
+/// lay up to 0.98 of its radius inside it, and its reported depth was less than the capsule's depth there by as much.
+/// Cause: where the end of the segment clips a side of the core, the clipped point was moved out by the radius along
+/// the normal, which is right for corners that face that way, and not to the surface that is there.
 #[test]
 fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
     let capsule = Capsule2::from_half_height(0.6, 0.25).unwrap();
@@ -319,7 +322,7 @@ fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
             let normal = seen(manifold.normal.as_dvec2());
             for point in &manifold.points {
                 let (far, foot) = from_core(core, seen(point.anchor_b.as_dvec2()));
-                // Roundings of anchors to f32, and how much deeper counts as even: 5e-7 of a diameter.
+                // Rounding of anchors to f32, and the tolerance of equal depth: 5e-7 of a diameter.
                 assert!((far - radius).abs() < 2e-6, "{i}: {far} from the core, {point:?} of {manifold:?}");
                 let out = (seen(point.anchor_b.as_dvec2()) - foot) / far;
                 assert!(out.dot(normal) < 1e-5, "{i}: on the far side, {point:?} of {manifold:?}");
@@ -331,9 +334,9 @@ fn where_a_piece_ends_the_anchor_of_a_tilted_body_lies_on_its_surface() {
     assert!(tilted_at_ends > 300, "{tilted_at_ends}");
 }
 
-/// Symptom: a capsule 40 cm deep in a chain was told, with a margin of 4 cm and not without, to be a little above the
-/// next segment. Cause: what is deep along no side of the ground counts where nothing else does, and what a margin
-/// brings in did.
+/// Symptom: a capsule 40 cm deep in a chain was reported, with a margin of 4 cm and not without, slightly above the
+/// next segment. Cause: a penetration along no side of the ground counts only where nothing else does, and a point that
+/// was there only because of the margin counted.
 #[test]
 fn a_margin_takes_no_contact_away() {
     let jags = [
@@ -386,9 +389,9 @@ fn a_margin_takes_no_contact_away() {
     assert!(deep > 500, "{deep}");
 }
 
-/// Symptom: a plank on a one-sided peak of 60 degrees was told a metre deep, and nothing a hair above it; casts met the
-/// peak with normals that look the way they go. Cause: a corner's normal that looks away from one of its faces was
-/// taken for that face's back.
+/// Symptom: a plank on a one-sided peak of 60 degrees was reported a metre deep, and without a contact a hair above it;
+/// casts hit the peak with normals that point along the motion. Cause: a corner normal that faces away from one of the
+/// corner's faces was taken for that face's back.
 #[test]
 fn a_peak_is_met_as_the_corner_that_it_is() {
     let peak = [Vec2::ZERO, Vec2::new(-4.0, -7.0), Vec2::new(4.0, -7.0)];

@@ -7,7 +7,7 @@ use asunder::{
     Motion2, Motion3, Pose2, Pose3, Ray2, Shape2, Snapshot, Sphere, TriMesh, World2, World3,
 };
 
-/// Ground of some four hundred segments that looks up.
+/// Ground of some four hundred segments, facing up.
 fn ground() -> Chain {
     Chain::open(cut_line(DVec2::new(30.0, 0.0), DVec2::new(-30.0, 0.0), 400)).unwrap().one_sided()
 }
@@ -150,8 +150,8 @@ fn ground_is_no_part_and_has_no_mass() {
     assert_eq!(refused, Err(CompoundError::Ground { index: 1 }));
 }
 
-/// A bullet that jumps past the tip of a one-sided ledge, from below. A chain asks for the side when the two first
-/// touch, a mesh at the start of the motion, and speculative contacts as everything stands now.
+/// A bullet that jumps past the tip of a one-sided ledge, from below. A chain determines the side when the two first
+/// touch, a mesh at the start of the motion, and speculative contacts at the current poses.
 #[test]
 fn who_comes_up_beside_the_tip_of_a_ledge_runs_into_a_chain_and_passes_a_mesh() {
     let mut world = World2::new();

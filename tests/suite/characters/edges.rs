@@ -1,4 +1,4 @@
-//! What a character that is not let through is told: at edges, and in corners that slopes and walls make.
+//! What is reported to a character that is stopped: at edges, and in corners between slopes and walls.
 
 use super::stage::{Hero, cosine, cuboid, is_free, sine};
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
@@ -18,8 +18,9 @@ fn thin_person() -> Shape3 {
     Capsule3::from_half_height(0.6, 0.3).unwrap().into()
 }
 
-/// Symptom: a character that fell past the edge of a box hung in the air beside it for good, and was told of no ground
-/// and no wall. Cause: the edge took its fall, as one to stand on, and was too far down the way to be found as ground.
+/// Symptom: a character that fell past the edge of a box hung in the air beside it for good, and no ground or wall was
+/// reported. Cause: the edge stopped the fall, as one to stand on, and was too far down the motion to be found as
+/// ground.
 #[test]
 fn who_falls_on_an_edge_stands_on_it_or_falls_past() {
     let world = block();
@@ -66,7 +67,7 @@ fn who_falls_on_an_edge_in_the_plane_stands_on_it_or_falls_past() {
     }
 }
 
-/// Symptom: who jumped against a ledge was held by it, and nothing said so.
+/// Symptom: a character that jumped against a ledge was held by it, and nothing was reported.
 #[test]
 fn what_is_not_gone_is_explained() {
     let world = block();
@@ -87,7 +88,7 @@ fn what_is_not_gone_is_explained() {
     assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
 }
 
-/// Symptom: who pressed against a wall by less than its skin a frame was held, and told of no wall.
+/// Symptom: a character that pressed against a wall by less than its skin per frame was held, and no wall was reported.
 #[test]
 fn a_wall_that_is_pressed_slowly_is_told() {
     let mut world = World3::new();
@@ -103,7 +104,7 @@ fn a_wall_that_is_pressed_slowly_is_told() {
     }
 }
 
-/// Symptom: in the corner of a slope that is too steep and a wall that leaned over it by a degree, a run became a
+/// Symptom: in the corner between a slope that is too steep and a wall that leaned over it by a degree, a run became a
 /// climb.
 #[test]
 fn nobody_climbs_between_a_slope_and_what_leans_over_it() {
@@ -129,7 +130,7 @@ fn nobody_climbs_between_a_slope_and_what_leans_over_it() {
     }
 }
 
-/// Symptom: a jump into an acute corner led back and forth in it, frame by frame.
+/// Symptom: a jump into an acute corner moved back and forth in it, frame by frame.
 #[test]
 fn no_jump_leads_back() {
     let mut world = World2::new();
@@ -150,14 +151,14 @@ fn no_jump_leads_back() {
     }
 }
 
-/// Symptom: who was in a groove whose walls are one body was not freed, though it was where they are two. Cause: of
-/// each body only the deepest manifold was left.
+/// Symptom: a character in a groove whose walls are one body was not freed, while it was where they are two bodies.
+/// Cause: only the deepest manifold of each body was kept.
 #[test]
 fn grooves_of_one_body_are_left_as_those_of_two() {
     let hero = Shape3::from(Sphere::new(0.5).unwrap());
     for half in [10.0_f64, 20.0, 45.0, 80.0] {
         let (sin, cos) = (sine(half.to_radians()), cosine(half.to_radians()));
-        // Two walls from the origin up, each leaning out by the half angle.
+        // Two walls up from the origin, each tilted outwards by the half angle.
         let corner = |side: f64, up: f64, out: f64, z: f64| {
             DVec3::new(side * (up * sin + out * cos), up * cos - out * sin, z)
         };
@@ -171,7 +172,7 @@ fn grooves_of_one_body_are_left_as_those_of_two() {
         let mesh = TriMesh::new(vertices, [[0, 2, 1], [2, 3, 1], [0, 1, 4], [4, 1, 5]]).unwrap();
         let one = Compound3::new([-1.0, 1.0].map(|side| (Pose3::IDENTITY, wall(side)))).unwrap();
         let worlds: [Vec<Shape3>; 3] = [vec![wall(-1.0), wall(1.0)], vec![one.into()], vec![mesh.into()]];
-        // Where the ball just fits, and how far below that it is.
+        // The height at which the ball just fits, and how far below it starts.
         let fits = 0.5 / sin;
         for (kind, shapes) in worlds.iter().enumerate() {
             let mut world = World3::new();
@@ -189,8 +190,8 @@ fn grooves_of_one_body_are_left_as_those_of_two() {
     }
 }
 
-/// Who climbs no steps walks over low edges nonetheless, if its feet are round: as high as they touch them no steeper
-/// than ground.
+/// Even without steps, a character with round feet walks over low edges: up to the height at which the feet touch them
+/// no steeper than ground.
 #[test]
 fn round_feet_walk_over_low_edges_whatever_the_step() {
     for (height, is_low) in [(0.08, true), (0.1, false)] {

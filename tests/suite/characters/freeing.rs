@@ -1,4 +1,4 @@
-//! Out of solids, and the truth where there is no way out.
+//! Leaving solids, and what is reported where there is no way out.
 
 use super::stage::{Hero, capsule, crate_of_a_person, cuboid, floor, is_free, put};
 use asunder::glam::{DVec3, Quat, Vec3};
@@ -102,7 +102,7 @@ fn who_is_wedged_is_told_so_and_stays_near() {
     }
 }
 
-/// A person among boxes that lie about: on a floor, under one, between walls that lean.
+/// A person among boxes placed at random: on a floor, under one, between walls that lean.
 fn among_boxes(random: &mut Random) -> (World3, Shape3, Pose3) {
     let mut world = World3::new();
     for _ in 0..3 {
@@ -114,7 +114,8 @@ fn among_boxes(random: &mut Random) -> (World3, Shape3, Pose3) {
     (world, shape, Pose3::at(random.within(DVec3::splat(-0.5), DVec3::splat(0.5))).unwrap())
 }
 
-/// Pushes alone left a person wedged between two bodies, or moved it four metres, where one was enough.
+/// Pushing out of one body after the other left a person wedged between two bodies, or moved it four metres where one
+/// was enough.
 #[test]
 fn who_can_leave_several_bodies_straight_is_freed_and_goes_not_much_further() {
     let (mut random, mut cases) = (Random::new(175), 0);
@@ -122,7 +123,7 @@ fn who_can_leave_several_bodies_straight_is_freed_and_goes_not_much_further() {
         let (world, shape, pose) = among_boxes(&mut random);
         let freed = world.depenetrate((&shape, &pose), &Filter3::new());
         assert_eq!(freed.is_free, is_free(&world, &shape, &freed.pose), "{case}");
-        // The best of many straight ways, each shorter than the one before.
+        // The best of many straight ways, each shorter than the best before.
         let (mut best, moved) = (4.0, freed.moved.length());
         for _ in 0..300 {
             let way = random.direction() * (best * (0.3 + 0.7 * random.unit()));
@@ -139,7 +140,7 @@ fn who_can_leave_several_bodies_straight_is_freed_and_goes_not_much_further() {
 
 #[test]
 fn who_just_fits_into_a_gap_gets_into_it() {
-    // 0.4 mm of room to both sides: less than a skin.
+    // 0.4 mm of room on either side: less than a skin.
     let mut world = floor();
     for x in [-1.4004, 1.4004] {
         put(&mut world, [1.0, 3.0, 9.0], [x, 2.0, 0.0], 0.0);
@@ -179,7 +180,7 @@ fn freedom_is_exactly_that() {
     assert!(wedged < 100 && freed_of_many > 500, "{wedged} of them are wedged, {freed_of_many} freed");
 }
 
-/// Symptom: of a mesh that lay in another one it was said that it is free. Cause: two grounds have no manifolds.
+/// Symptom: a mesh that lay in another mesh was reported as free. Cause: two grounds have no manifolds.
 #[test]
 fn ground_in_ground_is_not_free() {
     let corners = [[-3.0, 0.0, -3.0], [-3.0, 0.0, 3.0], [3.0, 0.0, -3.0], [3.0, 0.0, 3.0]].map(Vec3::from);

@@ -1,4 +1,4 @@
-//! The order in which the bodies of a scene were inserted, which is nothing to who walks there.
+//! The order in which the bodies of a scene were inserted, which must not matter to a character.
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
@@ -6,17 +6,18 @@ use asunder::{
     Sphere, Walk2, Walk3, World2, World3,
 };
 
-/// Gaps to what is below and above, in skins: of who was stopped a skin from one, by a way that led along the other.
+/// Gaps to what is below and above, in skins, as for a character that was stopped a skin from one while it moved along
+/// the other.
 const GAPS: [(f64, f64); 3] = [(1.0, 0.85), (0.9, 0.77), (0.75, 0.75)];
 
-/// How steep the floor and the ceiling of an acute corner are, the ceiling down to the right. Of a corner so acute, the
-/// way out is long, and pushes lead along it only by little at a time.
+/// Slopes of the floor and the ceiling of an acute corner, the ceiling down to the right. In so acute a corner the way
+/// out is long, and each push moves only a little along it.
 const CORNERS: [(f32, f32); 4] = [(0.0, -0.1), (0.05, -0.1), (0.15, -0.05), (0.3, -0.3)];
 
-/// Symptom: who was closer than its skin to the floor and the ceiling of an acute corner was up to four millimetres
-/// elsewhere, as its floor or its ceiling had been inserted first. Cause: it is pushed out of one after the other, over
-/// and over, and not for long enough that it makes no difference with which that began; and it began with the lowest
-/// slot.
+/// Symptom: the end position of a character closer than its skin to the floor and the ceiling of an acute corner
+/// depended, by up to four millimetres, on which of the two had been inserted first. Cause: it is pushed out of one
+/// after the other repeatedly, but too few times for the first one not to matter, and the first was the one in the
+/// lowest slot.
 #[test]
 fn of_an_acute_corner_of_the_plane_either_side_may_come_first() {
     let radius = 0.4;

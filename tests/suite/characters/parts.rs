@@ -39,16 +39,16 @@ fn chain(profile: &[[f32; 2]]) -> Shape2 {
     Chain::open(profile.iter().copied().map(Vec2::from)).unwrap().into()
 }
 
-/// Where a ball of radius 0.5 is, its skin above the slope and less than two above the floor: on its way down it meets
-/// the slope first.
+/// The centre of a ball of radius 0.5 with a skin to the slope and less than two to the floor: moving down it hits the
+/// slope first.
 fn in_the_corner(skin: f64) -> DVec2 {
     let (sin, cos) = (sine(STEEP.to_radians()), cosine(STEEP.to_radians()));
     let y = 0.5 + 1.8 * skin;
     DVec2::new((y * cos - 0.5 - 1.05 * skin) / sin, y)
 }
 
-/// Symptom: who stood on the floor in the corner of a slope was told of no ground if both were one body. Cause: of each
-/// body, only what is met first on the way down was looked at.
+/// Symptom: a character that stood on the floor in the corner of a slope got no ground if both were one body. Cause:
+/// for each body, only the first impact on the way down was considered.
 #[test]
 fn the_floor_beside_a_slope_of_the_same_body_is_told() {
     let (sin, cos) = (sine(STEEP.to_radians()), cosine(STEEP.to_radians()));
@@ -106,9 +106,9 @@ fn the_floor_beside_a_slope_of_the_same_chain_is_told() {
     }
 }
 
-/// Symptom: who walked off a floor followed its edge down if floor and cliff were one body, and was let go at once if
-/// they were two. Cause: what lies behind an edge was only looked for in the body that the edge was said to be of,
-/// which was the cliff.
+/// Symptom: a character that walked off a floor followed its edge down if floor and cliff were one body, and left it at
+/// once if they were two. Cause: what lies behind an edge was only looked up in the body to which the edge was
+/// attributed, and that was the cliff.
 #[test]
 fn an_edge_of_two_bodies_is_walked_over_as_that_of_one() {
     let (floor, cliff) = ([[-4.0, 0.1], [0.1, 0.1]], [[0.1, 0.1], [0.5, -1.0]]);

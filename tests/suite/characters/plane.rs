@@ -201,8 +201,9 @@ fn whoever_starts_free_in_the_plane_ends_free_and_inside() {
     assert!(walked > 5000 && met > 2000, "{walked} {met}");
 }
 
-/// Symptom: who dashed straight at a wall that leans over stopped there, and with a rise of a picometre slid 0.6 m down
-/// along it: so in levels turned by what f32 makes of an angle. Cause: any rise at all counted as one.
+/// Symptom: a character that dashed straight at an overhanging wall stopped there, but with a rise of a picometre it
+/// slid 0.6 m down along it; so it did in levels rotated by an angle rounded to f32. Cause: any rise at all counted as
+/// one.
 #[test]
 fn a_rise_that_is_rounding_leads_nobody_down_an_overhang() {
     let mut world = World2::new();

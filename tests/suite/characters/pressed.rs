@@ -1,4 +1,4 @@
-//! Who is pressed against ground.
+//! Characters pressed against ground.
 
 use asunder::{
     Capsule2, Capsule3, Chain, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3,
@@ -7,8 +7,8 @@ use asunder::{
 };
 use glam::{Vec2, Vec3};
 
-/// Symptom: who was pressed against a wall of one-sided ground was put behind it, and said to be free. Cause: of poses
-/// on the way out, one behind the ground's front counted as free of it.
+/// Symptom: a character pressed against a wall of one-sided ground was put behind it, and reported as free. Cause:
+/// among poses on the way out, one behind the ground's front counted as free of it.
 #[test]
 fn nobody_is_pressed_through_a_one_sided_wall() {
     let hero: Shape2 = Circle::new(0.3).unwrap().into();
@@ -27,8 +27,8 @@ fn nobody_is_pressed_through_a_one_sided_wall() {
     }
 }
 
-/// The same in space; and where there is a way out, it is found: on top of what is lower, and beside what is level, which
-/// pushes alone do not lead to.
+/// The same in space. Where there is a way out, it is found: on top of what is lower, and beside what is level, where
+/// pushes alone do not lead.
 #[test]
 fn who_is_pressed_from_the_side_comes_out_on_top() {
     let hero: Shape3 = Sphere::new(0.3).unwrap().into();
@@ -53,7 +53,7 @@ fn who_is_pressed_from_the_side_comes_out_on_top() {
     }
 }
 
-/// A press comes down on who stands on a level of one side: as long as it comes, nobody leaves the level.
+/// A press comes down on a character on a one-sided level: as long as it moves, the character does not leave the level.
 #[test]
 fn nobody_is_pressed_through_the_floor() {
     let hero: Shape3 = Capsule3::from_half_height(0.15, 0.25).unwrap().into();
@@ -83,9 +83,10 @@ fn nobody_is_pressed_through_the_floor() {
     }
 }
 
-/// Symptom: a ledge that came down on who lay on a floor of one side put its middle a hundredth below the floor, where
-/// it counted as free, and fell out of the level. Cause: of the way to ground a tenth was left in each round, and after
-/// sixteen of them nothing, so that the middle was on the floor's line, and passed it from there.
+/// Symptom: a ledge that came down on a character lying on a one-sided floor put its centre a hundredth below the
+/// floor, where it counted as free, and it fell out of the level. Cause: each round kept a tenth of the distance to the
+/// ground, and after sixteen rounds nothing was left, so that the centre was on the floor's line, and passed it from
+/// there.
 #[test]
 fn nobody_is_pressed_through_a_floor_little_by_little() {
     let chain =
@@ -114,8 +115,8 @@ fn nobody_is_pressed_through_a_floor_little_by_little() {
     assert!(slide.pose.position().y > low.into() && !slide.is_free, "{slide:?}");
 }
 
-/// Symptom: of three balls that are one body, pressed against a wall, the first was put behind it, where nothing of the
-/// wall is met by it, and all counted as free. Cause: only the middle of the whole was held back.
+/// Symptom: of three balls that are one body, pressed against a wall, the first was put behind it, where it does not
+/// touch the wall, and all counted as free. Cause: only the centre of the whole body was kept in front.
 #[test]
 fn no_part_is_pressed_through_a_wall() {
     let row = [-0.5, 0.0, 0.5];
@@ -141,7 +142,7 @@ fn no_part_is_pressed_through_a_wall() {
             world.insert(cube.at(Pose3::at([press, 0.0, 0.0]).unwrap()));
             let slide = world.move_and_slide((&hero, &at), Vec3::ZERO, &walk, &Filter3::new());
             at = slide.pose;
-            // The balls take 1.6 m between the press's face and the wall.
+            // The balls need 1.6 m between the press's face and the wall.
             assert_eq!(slide.is_free, press < -1.6, "{is_one_sided}, frame {frame}: {slide:?}");
             assert!(at.position().x + 0.5 < 1.0, "{is_one_sided}, frame {frame}: {slide:?}");
 
@@ -157,8 +158,9 @@ fn no_part_is_pressed_through_a_wall() {
     }
 }
 
-/// Symptom: who was sunk into one-sided ground so that its middle was in the very plane of it was pressed through, and
-/// said to be free. Cause: a way that starts on ground was taken to leave it, whatever side it led to.
+/// Symptom: a character sunk into one-sided ground so that its centre was exactly in the ground's plane was pressed
+/// through, and reported as free. Cause: a motion that starts on ground was taken to leave it, to whichever side it
+/// led.
 #[test]
 fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
     let (ball, disc) = (Shape3::from(Sphere::new(0.3).unwrap()), Shape2::from(Circle::new(0.3).unwrap()));
@@ -166,7 +168,7 @@ fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
     let mesh = TriMesh::new(corners, [[0, 2, 1], [0, 3, 2]]).unwrap().one_sided();
     let field = HeightField::new(11, 11, [0.0; 121], Vec2::ONE).unwrap().one_sided();
     let floors: [(Shape3, [f64; 3]); 2] = [(mesh.into(), [0.0; 3]), (field.into(), [-5.0, 0.0, -5.0])];
-    // On one triangle, on an edge, and in a corner; and beside the end of a press, where there is a way out.
+    // On a triangle, on an edge, and in a corner; and beside the end of a press, where there is a way out.
     for (floor, at) in floors {
         for place in [[0.3, 0.0, 0.1], [0.5, 0.0, 0.5], [0.0, 0.0, 0.0], [2.1, 0.0, 0.1]] {
             let mut world = World3::new();
@@ -190,8 +192,9 @@ fn nobody_is_pressed_through_a_floor_from_its_very_plane() {
     }
 }
 
-/// Symptom: whose middle was in the very plane of one sheet of a mesh was pressed through the next, which it was not
-/// where the sheets were two bodies. Cause: of a body that a way starts on, nothing further was looked at.
+/// Symptom: a character whose centre was exactly in the plane of one sheet of a mesh was pressed through the next
+/// sheet, but not where the sheets were two bodies. Cause: of a body on which a motion starts, nothing further was
+/// considered.
 #[test]
 fn nobody_is_pressed_through_the_sheet_behind() {
     let (ball, disc) = (Shape3::from(Sphere::new(0.3).unwrap()), Shape2::from(Circle::new(0.3).unwrap()));
@@ -228,7 +231,7 @@ fn nobody_is_pressed_through_the_sheet_behind() {
     }
 }
 
-/// Whether a ray meets a mesh, as it does from the front.
+/// Whether a ray hits a mesh, as it does from the front.
 fn cast_ray_of(mesh: &TriMesh, origin: [f64; 3], direction: Vec3) -> bool {
     let ray = Ray3::new(origin, direction * 2.0).unwrap();
     cast_ray3(&mesh.clone().into(), &Pose3::IDENTITY, &ray, 1.0).is_some()

@@ -1,4 +1,5 @@
-//! Seeded rooms full of things, closed by thin walls: whatever is done in there, nobody gets into anything, or out.
+//! Seeded rooms full of things, closed by thin walls: whatever a character does in there, it gets into nothing, and not
+//! out.
 
 use super::stage::{capsule, check_length, crate_of_a_person, cuboid, is_free, put};
 use asunder::glam::{DVec3, Vec3};

@@ -1,9 +1,9 @@
-//! A world to walk in, and a character that does.
+//! A world to walk in, and a character that walks.
 
 use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{Capsule3, Collider3, Cuboid, Filter3, Pair3, Pose3, Shape3, Slide3, Walk3, World3};
 
-/// A box of these half extents.
+/// A box with these half extents.
 pub(crate) fn cuboid(half: impl Into<Vec3>) -> Shape3 {
     Cuboid::from_half_extents(half.into()).unwrap().into()
 }
@@ -13,7 +13,7 @@ pub(crate) fn capsule() -> Shape3 {
     Capsule3::from_half_height(0.5, 0.4).unwrap().into()
 }
 
-/// A person of 1.8 m, in a box.
+/// A person of 1.8 m, as a box.
 pub(crate) fn crate_of_a_person() -> Shape3 {
     cuboid([0.4, 0.9, 0.4])
 }
@@ -63,7 +63,7 @@ pub(crate) struct Hero<'w> {
 }
 
 impl<'w> Hero<'w> {
-    /// One whose feet are at this place.
+    /// A character whose feet are at this place.
     pub(crate) fn new(world: &'w World3, shape: Shape3, feet: impl Into<DVec3>) -> Self {
         let walk = Walk3::new(&shape, Vec3::Y).unwrap();
         let pose = Pose3::at(feet.into() + DVec3::Y * (0.9 + f64::from(walk.skin))).unwrap();
@@ -74,7 +74,7 @@ impl<'w> Hero<'w> {
         self.pose.position() - DVec3::Y * (0.9 + f64::from(self.walk.skin))
     }
 
-    /// One frame. What holds of every frame is checked: from a free start nothing is entered, and the way is not
+    /// Runs one frame and checks what holds in every frame: from a free start nothing is entered, and the motion is not
     /// too long.
     pub(crate) fn step(&mut self, displacement: impl Into<Vec3>) -> Slide3 {
         let displacement = displacement.into();
@@ -91,7 +91,7 @@ impl<'w> Hero<'w> {
     }
 }
 
-/// A displacement, a step and a snap, and three skins.
+/// Asserts that the motion is no longer than the displacement, a step and a snap, and three skins.
 pub(crate) fn check_length(slide: &Slide3, displacement: Vec3, walk: &Walk3) {
     let displacement = if displacement.is_finite() { displacement.as_dvec3() } else { DVec3::ZERO };
     let most = displacement.length() + f64::from(walk.step + walk.snap + 3.0 * walk.skin);

@@ -1,4 +1,4 @@
-//! Who crouches, and would stand up.
+//! A crouching character that wants to stand up.
 
 use asunder::glam::{Vec2, Vec3};
 use asunder::{
@@ -10,14 +10,14 @@ const CROUCHING: f32 = 0.7;
 const STANDING: f32 = 1.8;
 const CEILINGS: [f32; 6] = [0.75, 0.9, 1.2, 1.4, 1.7, 1.9];
 
-/// What is_free says of who stands there: behind the ceiling with its middle, nothing is in its way.
+/// What `is_free` returns for the standing shape: with its centre behind a one-sided ceiling, nothing is in its way.
 fn is_told_free(ceiling: f32, has_one_side: bool) -> bool {
     ceiling > STANDING + 0.01 || has_one_side && ceiling < STANDING / 2.0 + 0.01
 }
 
-/// Symptom: the guide said that `is_free` tells whether there is room to stand up, and under a low ceiling of one side
-/// it says yes. Cause: the middle of who would stand is behind that ceiling. The shape that crouches, cast upwards by
-/// what they differ in height, meets it.
+/// Symptom: the guide said that `is_free` tells whether there is room to stand up, but under a low one-sided ceiling it
+/// returns true. Cause: the centre of the standing shape is behind that ceiling. The crouching shape, cast upwards by
+/// the difference in height, hits it.
 #[test]
 fn who_crouches_is_cast_upwards_to_learn_whether_there_is_room() {
     let capsule =

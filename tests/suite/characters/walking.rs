@@ -42,8 +42,9 @@ fn who_jumps_leaves_the_ground() {
     assert!((hero.feet() - DVec3::new(0.1, 0.15, 0.0)).length() < 1e-6);
 }
 
-/// Symptom: of a frame that rises by less than a skin, or no faster than the slope ahead, ground was told: a loop that
-/// lets gravity pull where there is none lost the jump. Cause: ground was looked for below, also after what leads up.
+/// Symptom: in a frame that rises by less than a skin, or no faster than the slope ahead, ground was reported; a loop
+/// that applies gravity only without ground lost the jump. Cause: ground was searched below even after an upward
+/// motion.
 #[test]
 fn who_jumps_slowly_or_uphill_leaves_the_ground_too() {
     let world = floor();
@@ -70,7 +71,7 @@ fn who_jumps_slowly_or_uphill_leaves_the_ground_too() {
 
 #[test]
 fn no_inner_edge_of_a_tiled_floor_catches() {
-    // Tiles of width 0.7, which f32 does not hold: tops level, sides up to rounding.
+    // Tiles of width 0.7, which f32 does not hold: tops level, sides flush up to rounding.
     let mut world = World3::new();
     for x in -3..40 {
         for z in -2..3 {
@@ -115,7 +116,7 @@ fn slopes_are_climbed_up_to_the_limit_and_no_further() {
                 }
                 let height = hero.feet().y;
                 if climbs {
-                    // 10.2 m on at the same speed; 2 m lead there, 0.4 less for who has an edge.
+                    // 10.2 m at constant speed; 2 m lead to the slope, 0.4 less for a character with edges.
                     let most = 8.6 * sine(degrees.to_radians());
                     assert!(height > 0.85 * most && height < most + 0.1, "{degrees}: {}", hero.feet());
                 } else {
@@ -147,7 +148,7 @@ fn who_stands_on_a_slope_that_can_be_walked_on_does_not_slide_off() {
 fn who_falls_on_a_slope_that_is_too_steep_slides_down() {
     let world = slope(60.0);
     for shape in SHAPES {
-        // Pushing against the slope changes nothing: one does not hang there.
+        // Pushing against the slope changes nothing: a character does not hang there.
         for push in [0.0, 0.1] {
             let mut hero = Hero::new(&world, shape(), [3.0, 8.0, 0.0]);
             for frame in 0..100 {
@@ -161,9 +162,9 @@ fn who_falls_on_a_slope_that_is_too_steep_slides_down() {
     }
 }
 
-/// Symptom: down a slope of 40 degrees 3 m/s became 3.9, and who walked came as near as half its skin to the floor, so
-/// that it bobbed whenever it stopped. Cause: the ground that was stood on at first was met only where the way led into
-/// it by enough.
+/// Symptom: down a slope of 40 degrees 3 m/s became 3.9, and a walking character came as near as half its skin to the
+/// floor, so that it bobbed whenever it stopped. Cause: the ground that it stood on at first was hit only where the
+/// motion led into it by enough.
 #[test]
 fn slopes_are_walked_as_fast_up_as_down_and_a_skin_above_them() {
     for shape in SHAPES {
@@ -174,7 +175,7 @@ fn slopes_are_walked_as_fast_up_as_down_and_a_skin_above_them() {
             put(&mut world, [50.0, 0.5, 50.0], DVec3::ZERO, degrees);
             let mut hero = Hero::new(&world, shape(), [0.0, 3.0, 0.0]);
             while hero.step([0.0, -0.2, 0.0]).ground.is_none() {}
-            // Where it lands it comes a little nearer than its skin, and is moved back to it.
+            // On landing it comes slightly nearer than its skin, and is moved back to it.
             hero.step([speed, -0.003, 0.01]);
             let start = hero.feet();
             for frame in 0..60 {
@@ -191,8 +192,9 @@ fn slopes_are_walked_as_fast_up_as_down_and_a_skin_above_them() {
     }
 }
 
-/// Symptom: who jumped once at a slope that is too steep, and ran on, climbed it for as long as it ran. Cause: the
-/// guide's hero took out of its velocity what goes into the slope, and the speed of its run became one upwards.
+/// Symptom: a character that jumped once at a slope that is too steep, and ran on, climbed it for as long as it ran.
+/// Cause: the guide's hero removed from its velocity the component into the slope, and the speed of its run turned
+/// upwards.
 #[test]
 fn who_jumps_at_a_slope_that_is_too_steep_and_runs_on_comes_down_again() {
     for degrees in [48.0, 60.0, 80.0] {
@@ -244,7 +246,7 @@ fn a_ramp_is_followed_downhill_on_the_ground() {
     }
 }
 
-/// Ten steps up towards +x, each so high and so deep.
+/// Ten steps up towards +x, of this height and depth.
 fn stairs(height: f64, depth: f64) -> World3 {
     let mut world = floor();
     for step in 1..=10 {
@@ -305,7 +307,7 @@ fn nobody_climbs_a_step_in_the_air_or_under_a_low_ceiling() {
     let mut hero = Hero::new(&world, crate_of_a_person(), [0.5, 0.1, 0.0]);
     let slide = hero.step([2.0, 0.0, 0.0]);
     assert!(hero.feet().y > 0.09 && hero.feet().x < 1.6 && slide.blocked);
-    // A ceiling 1.9 m above the floor, which is 1.6 m above the step.
+    // A ceiling 1.9 m above the floor, and 1.6 m above the step.
     put(&mut world, [6.0, 0.1, 6.0], [0.0, 2.0, 0.0], 0.0);
     let mut hero = Hero::new(&world, crate_of_a_person(), [0.5, 0.0, 0.0]);
     for _ in 0..20 {
@@ -333,7 +335,7 @@ fn far_from_the_origin_all_is_the_same_up_to_rounding() {
                 .collect::<Vec<_>>()
         };
         for (near, far) in path(0.0).into_iter().zip(path(1e7)) {
-            // An ulp is 1.9e-9 there, and every frame adds some roundings.
+            // An ulp is 1.9e-9 there, and every frame adds a few roundings.
             assert!(near.distance(far) < 1e-5, "{near} {far}");
         }
     }

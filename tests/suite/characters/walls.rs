@@ -5,7 +5,7 @@ use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{Collider3, HalfSpace, Hull, Pose3, Segment3, Sphere, Triangle3, World3};
 use asunder_scenes::random::Random;
 
-/// Adds an upright wall through the origin, of which the far side is solid, turned about y.
+/// Adds an upright wall through the origin, turned about y; its far side is solid.
 fn wall(world: &mut World3, degrees: f64) {
     let (radians, half) = (degrees.to_radians(), degrees.to_radians() / 2.0);
     let normal = DVec3::new(cosine(radians), 0.0, -sine(radians));
@@ -66,7 +66,7 @@ fn a_wall_of_crates_is_as_smooth_as_one_wall() {
 #[test]
 fn in_a_corner_it_stops_and_does_not_tremble() {
     for shape in [capsule, crate_of_a_person] {
-        // Walls whose outward normals are so far apart: corners of 150, 90, 60 and 20 degrees.
+        // Angles between the outward normals of two walls: corners of 150, 90, 60 and 20 degrees.
         for apart in [30.0, 90.0, 120.0, 160.0] {
             for aim in [-0.4, 0.0, 0.3] {
                 let mut world = floor();
@@ -82,7 +82,7 @@ fn in_a_corner_it_stops_and_does_not_tremble() {
                 for _ in 0..100 {
                     let slide = hero.step(displacement);
                     tangent = tangent.max(slide.moved.length());
-                    // Along the flat corner's walls the way may still lead on.
+                    // Along the walls of the flattest corner the motion may go on.
                     assert!(slide.blocked || apart == 30.0, "{apart} {aim}: {slide:?}");
                 }
                 if apart > 30.0 {
@@ -131,7 +131,7 @@ fn a_pillar_is_passed_round() {
     let pillar = asunder::Capsule3::from_half_height(5.0, 1.0).unwrap();
     world.insert(Collider3::new(pillar).at(Pose3::at([5.0, 1.0, 0.0]).unwrap()));
     for shape in [capsule, crate_of_a_person] {
-        // A box that meets it with a face stands before it.
+        // A box that touches it with a face stops before it.
         let least = if shape() == capsule() { 0.02 } else { 0.42 };
         for beside in [least, 0.5, 1.0, 1.399, 1.401] {
             let mut hero = Hero::new(&world, shape(), [0.0, 0.0, beside]);
@@ -165,7 +165,7 @@ fn along_the_crease_of_two_walls_the_way_leads_on() {
         put(&mut world, [20.0, 1.0, 60.0], DVec3::new(-side, 1.0, 0.0) * -0.5_f64.sqrt(), side * 45.0);
     }
     let ball = asunder::Shape3::from(Sphere::new(0.4).unwrap());
-    // It flies: no way is up.
+    // It flies: no direction is up.
     let walk = asunder::Walk3 { up: Vec3::ZERO, ..asunder::Walk3::new(&ball, Vec3::Y).unwrap() };
     let mut pose = Pose3::at([0.1, 3.0, -20.0]).unwrap();
     for frame in 0..200 {
@@ -177,9 +177,9 @@ fn along_the_crease_of_two_walls_the_way_leads_on() {
     }
 }
 
-/// Symptom: before a kerb a little higher than a step a hero stood still, and was told that nothing was in the way.
-/// Cause: its round feet may hold on to edges a little higher than those that it gets up on, and what holds was no
-/// wall.
+/// Symptom: a hero stood still before a kerb slightly higher than a step, and no wall was reported. Cause: its round
+/// feet may hold on to edges slightly higher than those that it can step onto, and what it held on to did not count as
+/// a wall.
 #[test]
 fn a_kerb_that_is_too_high_is_a_wall() {
     let (mut climbed, mut stopped) = (0, 0);
@@ -205,8 +205,9 @@ fn a_kerb_that_is_too_high_is_a_wall() {
     assert!(climbed > 40 && stopped > 40, "{climbed} got up, {stopped} did not");
 }
 
-/// Symptom: who walked into a corner of which one wall leans over stood still and was not blocked. Cause: the way was
-/// turned along one wall, and then along the other and the ground: back to where it came from.
+/// Symptom: a character that walked into a corner with one overhanging wall stood still, but was not reported as
+/// blocked. Cause: the motion was turned along one wall, and then along the other and the ground: back to where it came
+/// from.
 #[test]
 fn a_corner_blocks_whichever_wall_leans_over() {
     let mut random = Random::new(0xC0_4E4);
@@ -234,7 +235,7 @@ fn a_corner_blocks_whichever_wall_leans_over() {
     assert!(blocked > 300, "{blocked}");
 }
 
-/// Where two grounds meet under a ceiling that slants, each of them leads along the ceiling another way.
+/// Where two slopes meet under a slanting ceiling, each leads along the ceiling in another direction.
 #[test]
 fn a_valley_under_a_slanting_ceiling_blocks() {
     let plane = |normal: [f32; 3], at: [f64; 3]| {

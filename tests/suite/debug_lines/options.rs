@@ -1,4 +1,4 @@
-//! What is asked for is drawn, where it is, and nothing else.
+//! What is requested is drawn, at its place, and nothing else.
 
 use super::SHAPES;
 use asunder::glam::{DVec2, DVec3, Quat, Vec2, Vec3};
@@ -20,7 +20,7 @@ fn drawn3(world: &World3, options: &DebugOptions) -> Vec<([DVec3; 2], DebugLine)
     lines
 }
 
-/// As lines of space.
+/// The plane's lines as lines in space.
 fn drawn2(world: &World2, options: &DebugOptions) -> Vec<([DVec3; 2], DebugLine)> {
     let mut lines = Vec::new();
     world.debug_lines(options, &mut |from, to, what| {
@@ -29,7 +29,7 @@ fn drawn2(world: &World2, options: &DebugOptions) -> Vec<([DVec3; 2], DebugLine)
     lines
 }
 
-/// How often each line is there, whichever end comes first. No end is a NaN or a -0.
+/// How often each line occurs, in either direction. No end is a NaN or a -0.
 fn counted(lines: impl IntoIterator<Item = [DVec3; 2]>) -> BTreeMap<[[u64; 3]; 2], usize> {
     let mut counts = BTreeMap::new();
     for ends in lines {
@@ -40,7 +40,7 @@ fn counted(lines: impl IntoIterator<Item = [DVec3; 2]>) -> BTreeMap<[[u64; 3]; 2
     counts
 }
 
-/// The edges of a box: corners that differ in one coordinate.
+/// The edges of a box: pairs of corners that differ in one coordinate.
 fn edges(low: DVec3, high: DVec3) -> Vec<[DVec3; 2]> {
     let sides =
         |axis: usize| if low[axis] == high[axis] { vec![low[axis]] } else { vec![low[axis], high[axis]] };
@@ -56,8 +56,8 @@ fn of_kind(lines: &[([DVec3; 2], DebugLine)], kind: DebugLine) -> impl Iterator<
     lines.iter().filter(move |(_, what)| *what == kind).map(|(ends, _)| *ends)
 }
 
-/// Boxes are those of the last update, whatever was moved since; with the margin, and none of what is disabled, gone
-/// or endless.
+/// AABBs are those of the last update, whatever moved since; with the margin, and none for disabled, removed or
+/// unbounded bodies.
 #[test]
 fn boxes_are_drawn_by_their_edges() {
     let mut random = Random::new(910);
@@ -98,7 +98,7 @@ fn boxes_are_drawn_by_their_edges() {
     assert!(drawn.iter().chain(&drawn_flat).all(|(_, what)| *what == DebugLine::Box));
 }
 
-/// Every choice of options draws what each of them draws alone.
+/// Every combination of options draws what each of them draws alone.
 #[test]
 fn each_option_switches_its_own_lines() {
     let mut random = Random::new(911);
@@ -155,7 +155,7 @@ fn an_empty_world_draws_nothing() {
 }
 
 /// A crate a tenth of a metre deep in a floor: four crosses half-way, at the corners of the crate, and normals from the
-/// body of the lower slot, whichever that is.
+/// body in the lower slot, whichever that is.
 #[test]
 fn contacts_of_a_crate_are_drawn_under_its_corners() {
     let options = DebugOptions { contacts: true, normals: true, length: 0.5, ..NOTHING };
@@ -177,7 +177,7 @@ fn contacts_of_a_crate_are_drawn_under_its_corners() {
         let normals: Vec<_> = of_kind(&lines, DebugLine::Normal).collect();
         assert_eq!(normals.len(), 4);
         for [from, to] in normals {
-            // Anchors are f32, of up to 8 m.
+            // Anchors are f32, up to 8 m long.
             let at = corners.iter().position(|corner| corner.distance(from) < 1e-6);
             corners.remove(at.unwrap_or_else(|| panic!("{from} is none of {corners:?}")));
             assert!((to - from).distance(up * 0.5) < 1e-6, "{from} to {to}");
@@ -226,7 +226,7 @@ fn contacts_of_a_crate_are_drawn_under_its_corners_in_the_plane() {
     }
 }
 
-/// What a motion may bring is drawn half-way across the gap; a sensor has no points.
+/// Speculative contacts are drawn half-way across the gap; a sensor has no points.
 #[test]
 fn contacts_to_come_are_drawn_in_the_gap_and_sensors_have_none() {
     let unit = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap();
@@ -244,7 +244,7 @@ fn contacts_to_come_are_drawn_in_the_gap_and_sensors_have_none() {
     }
 }
 
-/// What is no number is drawn as nothing long, and what is endless ends somewhere: renderers are handed no NaN.
+/// A length of NaN draws lines of length zero, and unbounded shapes are cut off: renderers get no NaN.
 #[test]
 fn lengths_that_are_no_numbers_give_lines_that_can_be_drawn() {
     let (mut world, mut flat) = (World3::new(), World2::new());
@@ -268,7 +268,8 @@ fn lengths_that_are_no_numbers_give_lines_that_can_be_drawn() {
     }
 }
 
-/// A half-space's arrow leads into it; where its length is below zero, out of it, into regions that it is not in itself.
+/// A half-space's arrow points into it; with a negative length it points out of it, into regions that the half-space is
+/// not in.
 #[test]
 fn an_arrow_that_leads_out_of_a_half_space_is_seen_there() {
     let (mut space, mut plane) = (World3::new(), World2::new());
@@ -284,8 +285,8 @@ fn an_arrow_that_leads_out_of_a_half_space_is_seen_there() {
     }
 }
 
-/// Whether a line has a point in a box, by the axes that may part the two: those of the box, and across the line and
-/// each of them.
+/// Whether a line has a point in a box, by the separating axes of the two: those of the box, and its cross products
+/// with the line.
 fn reaches_in(region: &Aabb3, [from, to]: &[DVec3; 2]) -> bool {
     let (low, high) = (region.min.as_dvec3(), region.max.as_dvec3());
     let (half, middle) = ((high - low) * 0.5, (from + to) * 0.5 - (low + high) * 0.5);
@@ -295,10 +296,10 @@ fn reaches_in(region: &Aabb3, [from, to]: &[DVec3; 2]) -> bool {
     !DVec3::AXES.into_iter().chain(across).any(parts)
 }
 
-/// The lines of a region are those of the whole world that reach into it, in their order: of ground as of all else.
+/// The lines of a region are those of the whole world that reach into it, in the same order: of ground, too.
 ///
-/// Symptom: of ground that is turned, lines whose own boxes overlap the region were said to be there, and some were
-/// not. Cause: ground is looked at in its own axes, where its lines have other boxes.
+/// Symptom: for rotated ground, lines whose own AABBs overlap the region were documented to be drawn, and some were
+/// not. Cause: ground is searched in its own axes, where its lines have other AABBs.
 #[test]
 fn a_region_has_the_lines_of_the_world_that_reach_into_it() {
     let random = &mut Random::new(5);
@@ -335,7 +336,7 @@ fn a_region_has_the_lines_of_the_world_that_reach_into_it() {
         space.debug_lines_in(&region, &options, &mut |from, to, what| found.push(([from, to], what)));
         assert_eq!(found, expected, "{region:?}");
         let flat = Aabb2::new(Vec2::new(x, y), Vec2::new(x_end, y_end));
-        // Lines of the plane are drawn at height 0 here.
+        // Lines of the plane are compared at z = 0.
         let around = Aabb3::new(Vec3::new(x, y, -1.0), Vec3::new(x_end, y_end, 1.0));
         let there = all2.iter().filter(|(line, _)| reaches_in(&around, line));
         let expected: Vec<_> = there.map(|(line, what)| (line.map(|end| end.truncate()), *what)).collect();
@@ -347,10 +348,10 @@ fn a_region_has_the_lines_of_the_world_that_reach_into_it() {
     assert!(counts.iter().all(|&count| count > 500), "{counts:?}");
 }
 
-/// What is no region has no lines, and what has no end has all.
+/// An invalid region has no lines, and an unbounded one has all.
 ///
-/// Symptom: of a region without end, lines of ground were missing. Cause: its corners were turned into the ground's
-/// axes, where infinities times zero are no numbers.
+/// Symptom: in an unbounded region, lines of ground were missing. Cause: its corners were rotated into the ground's
+/// axes, where infinity times zero is NaN.
 #[test]
 fn regions_may_be_empty_or_endless() {
     let (mut space, mut plane) = (World3::new(), World2::new());

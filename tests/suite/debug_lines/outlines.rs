@@ -10,7 +10,7 @@ use asunder_tests::cores::{Piece2, Piece3, pieces2, pieces3};
 use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
 use std::collections::BTreeSet;
 
-/// What is drawn of one body.
+/// The lines drawn for one body.
 fn outline3(shape: &Shape3, pose: &Pose3) -> Vec<[DVec3; 2]> {
     let (mut world, mut lines) = (World3::new(), Vec::new());
     world.insert(Collider3::new(shape.clone()).at(*pose));
@@ -25,12 +25,11 @@ fn outline2(shape: &Shape2, pose: &Pose2) -> Vec<[DVec2; 2]> {
     lines
 }
 
-/// How far from the surface a point may be: f64 rounds at 10 m by 2e-15, and of faces that were merged the normal is
-/// that of their corners up to some 1e-7, of which a radius of a metre moves the surface by the square.
+/// How far from the surface a point may be: f64 rounds by 2e-15 at 10 m; the normal of merged faces is that of their
+/// corners up to some 1e-7, which moves the surface at a radius of a metre by the square of that.
 const ROUNDING: f64 = 1e-9;
 
-/// The same in the plane, where a stored rotation is of length one up to 6e-8, and what is drawn around a corner is
-/// turned by it.
+/// The same in the plane, where a stored rotation has length one up to 6e-8, and arcs around corners are rotated by it.
 const ROUNDING_IN_PLANE: f64 = 1.2e-7;
 
 /// A compound's lines lie on one of its parts.
@@ -51,7 +50,7 @@ fn lines_end_on_the_surface_in_space() {
     }
 }
 
-/// But for one line in each circle, which shows how it is turned.
+/// Except for one line in each circle, which shows its rotation.
 #[test]
 fn lines_end_on_the_outline_in_the_plane() {
     let mut random = Random::new(904);
@@ -88,7 +87,7 @@ fn center_of_circle(piece: &Piece2) -> Option<DVec2> {
     }
 }
 
-/// Lines as pairs of numbers of corners, the lower first. No line is there twice, and none ends elsewhere.
+/// Lines as pairs of corner indices, the lower first. Asserts that none occurs twice, and none ends elsewhere.
 fn numbered(lines: &[[DVec3; 2]], corners: &[DVec3]) -> BTreeSet<[usize; 2]> {
     let number = |end: DVec3| {
         let is_here = |corner: &DVec3| corner.distance(end) < ROUNDING;
@@ -128,7 +127,7 @@ fn every_edge_of_a_polyhedron_is_drawn_once() {
         let pose = Pose3::new(random.vector() * 10.0, random.quaternion()).unwrap();
         let piece = pieces3(&shape, &pose, DVec3::ZERO).remove(0);
         let Piece3::Round { core, is_solid, .. } = piece else { panic!("{shape:?}") };
-        // Of what is flat, the judge knows no edges, and only one normal of each side.
+        // For flat shapes the oracle has no edges, and only one normal for each side.
         let edges = match core.normals.first() {
             Some(&normal) if !is_solid => rim(&core.vertices, normal),
             _ => core.edges.iter().map(|&[i, j]| [i.min(j), i.max(j)]).collect(),
@@ -170,7 +169,7 @@ fn ground_is_drawn_by_the_sides_of_its_triangles() {
     let placed = |corners: &[Vec3]| -> Vec<DVec3> {
         corners.iter().map(|&corner| pose.transform(corner.as_dvec3())).collect()
     };
-    // A fan about one corner, open, and a triangle by itself.
+    // A fan about one corner, open, and a separate triangle.
     let mut corners = vec![Vec3::ZERO];
     corners.extend((0..5).map(|x| Vec3::new(x as f32 - 2.0, (x % 2) as f32, 1.0)));
     corners.extend([Vec3::X * 9.0, Vec3::X * 10.0, Vec3::new(9.0, 1.0, 1.0)]);
@@ -180,7 +179,7 @@ fn ground_is_drawn_by_the_sides_of_its_triangles() {
     assert_eq!(found, sides(fan.map(|triangle| triangle.map(|corner| corner as usize))));
     assert_eq!(found.len(), 9 + 3);
 
-    // Three cells by two, one of them a hole: its diagonal is not drawn, nor its free side at the rim.
+    // Three cells by two, one of them a hole: neither its diagonal nor its free side at the rim is drawn.
     let heights: Vec<f32> = (0..12).map(|number| (number * number % 7) as f32).collect();
     let field = HeightField::new(4, 3, heights.clone(), Vec2::new(1.0, 2.0)).unwrap();
     let field = field.with_hole(1, 0).unwrap();
@@ -192,7 +191,7 @@ fn ground_is_drawn_by_the_sides_of_its_triangles() {
     let open = [1, 2];
     let mut expected: BTreeSet<_> = along_x.chain(along_z).filter(|side| *side != open).collect();
     assert!(expected.is_subset(&found), "{found:?}");
-    // What is left are the diagonals, one of either in each cell that is no hole.
+    // The remaining lines are the diagonals, one of the two in each cell that is no hole.
     for cell in [0, 2, 4, 5, 6] {
         let either = [[cell, cell + 5], [cell + 1, cell + 4]].into_iter().filter(|side| found.contains(side));
         let either: Vec<_> = either.collect();

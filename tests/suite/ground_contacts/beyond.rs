@@ -1,11 +1,11 @@
-//! Bodies whose middle is beyond a bend or a rim of the ground they touch. Seen first as planks that were driven
+//! Bodies whose centre is beyond a bend or a rim of the ground that they touch. First seen as planks that were driven
 //! through a roof's ridge, and crates beside a platform that were thrown onto it.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder_geometry::{Cuboid, HeightField, Pose3, Shape3, TriMesh};
 use asunder_narrow::Pair3;
 
-/// A roof with its ridge along z, above x = 0, in cells of so many metres.
+/// A roof with its ridge along z, above x = 0, in cells of `cell` metres.
 fn roof(slope: f32, cell: f32) -> (Shape3, Pose3) {
     let n = (8.0 / cell) as usize + 1;
     let height = |i: usize| -slope * ((i % n) as f32 * cell - 4.0).abs();
@@ -65,7 +65,7 @@ fn a_crate_beside_a_rim_is_pushed_aside_and_not_onto_it() {
     let platform = TriMesh::new(corners, [[0, 1, 2], [2, 1, 3]]).unwrap();
     let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());
     for ground in [Shape3::from(platform.clone()), platform.one_sided().into()] {
-        // Sines of the angles that it leans away by.
+        // Sines of the angles by which the crate leans away.
         for lean in [-0.1, 0.0, 1e-6, 1e-3, 0.01, 0.1, 0.5_f64] {
             for up in [0.05, 0.3] {
                 let cosine = (1.0 - lean * lean).sqrt();

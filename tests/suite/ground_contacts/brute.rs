@@ -1,4 +1,4 @@
-//! Everything that is told of a contact on ground, against a loop over all triangles.
+//! Everything that is reported for a contact on ground, against a loop over all triangles.
 
 use super::scenes::{BODIES, Random, body, flat, grid, mesh, sees, stick};
 use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
@@ -6,11 +6,11 @@ use asunder_geometry::tolerance::EVEN_DEPTH;
 use asunder_geometry::{Compound3, Cuboid, Ground, HalfSpace, HeightField, Pose3, Shape3, Sphere, Triangle3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, Pair3, Separation3, collide3};
 
-/// A point lies on both surfaces up to this share of the sizes: faces count as flat within a few 2.5e-7, places are the
-/// same within 1e-6 of the body, and anchors are f32.
+/// A point may be off both surfaces by this share of the sizes: faces count as flat within a few 2.5e-7, positions as
+/// the same within 1e-6 of the body, and anchors are f32.
 const ON_SURFACE: f64 = 4e-6;
 
-/// Two normals of one manifold may be so far apart, and its points are told along either.
+/// Two normals that share a manifold may differ by this, and its points may be measured along either.
 const NORMALS: f64 = 2.1e-4;
 
 /// A body near ground.
@@ -22,7 +22,7 @@ struct Scene {
     margin: f32,
 }
 
-/// What the narrow phase tells.
+/// What the narrow phase reports.
 struct Told {
     /// Whether they overlap, if they are in contact.
     contact: Option<bool>,
@@ -54,7 +54,7 @@ impl Scene {
         (0..ground.triangle_count()).filter_map(move |number| ground.triangle(number))
     }
 
-    /// The convex parts, each as a shape that is posed as the body is, with their centres in the body's axes.
+    /// The convex parts, each as a shape to be posed as the body is, with their centres in the body's axes.
     fn parts(&self) -> Vec<(Shape3, DVec3)> {
         match &self.shape {
             Shape3::Compound(compound) => compound
@@ -65,13 +65,13 @@ impl Scene {
                     (alone.into(), part.center())
                 })
                 .collect(),
-            // Its side is that of what is far inside.
+            // Its centre is taken far inside.
             Shape3::HalfSpace(half_space) => vec![(self.shape.clone(), half_space.unit_normal() * -1e12)],
             shape => vec![(shape.clone(), shape.center().as_dvec3())],
         }
     }
 
-    /// Whether a triangle that sees a part overlaps it; nothing where rounding says which it sees.
+    /// Whether a part overlaps a triangle that faces it; `None` where rounding decides which triangles do.
     fn overlaps(&self) -> Option<bool> {
         let mut is_any = false;
         for (part, center) in self.parts() {
@@ -86,7 +86,7 @@ impl Scene {
         Some(is_any)
     }
 
-    /// How far a place is from the surface of a part, in metres.
+    /// How far a point is from the surface of a part, in metres.
     fn off_part(&self, part: &Shape3, place: DVec3) -> f64 {
         off(part, &self.pose, place).abs()
     }
@@ -98,7 +98,7 @@ impl Scene {
     }
 }
 
-/// The signed distance of a place from a convex shape.
+/// The signed distance of a point from a convex shape.
 fn off(shape: &Shape3, pose: &Pose3, place: DVec3) -> f64 {
     let radius = 1e-3;
     let probe: Shape3 = Sphere::new(radius).unwrap().into();
@@ -125,7 +125,7 @@ fn check(scene: &Scene, what: &str) -> Option<bool> {
         assert!(manifold.error >= 0.0 && !manifold.points.is_empty() && manifold.part_a < parts.len() as u32);
         let part = &parts[manifold.part_a as usize].0;
         let least = manifold.points.iter().map(|p| p.separation).fold(f32::INFINITY, f32::min);
-        // Of more than four corners, one that is as deep as the deepest but for trembling.
+        // Of more than four corners, one that counts as deepest within the tolerance is kept.
         let is_full = manifold.points.len() == 4;
         let even = if is_full { 2.0 * EVEN_DEPTH as f32 * part.outer_radius() } else { 0.0 };
         let (beyond, error) = (least - manifold.separation, manifold.error);
@@ -155,10 +155,10 @@ fn check(scene: &Scene, what: &str) -> Option<bool> {
     told.contact
 }
 
-/// Kinds of ground.
+/// Number of kinds of ground.
 const GROUNDS: usize = 8;
 
-/// Hills, ridges and spikes; loose triangles; a plane; steps. Meshes, and height fields with holes.
+/// Hills, ridges and spikes; separate triangles; a plane; steps. As meshes, and as height fields with holes.
 fn ground(random: &mut Random, kind: usize) -> Shape3 {
     let is_one_sided = random.below(2) == 0;
     let step = |x: usize, z: usize| ((x * 5 + z * 3) % 7) as f32 * 0.25;
@@ -226,7 +226,7 @@ fn touching_is_exact() {
     let mut random = Random::new(43);
     let mut counts = [0; 2];
     for round in 0..3000 {
-        // Of steps, of a plane, of steps with holes.
+        // Steps, a plane, or steps with holes.
         let kind = [4, 3, 7][round / 3 % 3];
         let ground = ground(&mut random, kind);
         let mut eighths = |least: usize, most: usize| (least + random.below(most - least)) as f64 / 8.0;
@@ -237,9 +237,9 @@ fn touching_is_exact() {
             1 => Cuboid::from_half_extents(half).unwrap().rounded(0.125).unwrap().into(),
             _ => Sphere::new(half.y).unwrap().into(),
         };
-        // Now and then a hair off.
+        // Sometimes one ulp higher.
         let place = if round % 7 == 0 { place.with_y(place.y.next_up()) } else { place };
-        // Height fields begin at their origin, the meshes are about theirs.
+        // Height fields start at their origin, the meshes are centred on theirs.
         let aside = if kind == 7 { -2.0 } else { 0.0 };
         let (pose, ground_pose) = (Pose3::at(place).unwrap(), Pose3::at([aside, 0.0, aside]).unwrap());
         let scene = Scene { shape, pose, ground, ground_pose, margin: 0.0 };

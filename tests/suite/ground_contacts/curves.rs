@@ -1,12 +1,12 @@
-//! Smooth ground of many triangles: a body on it sees the normals of what it touches, and nothing else.
+//! Smooth ground of many triangles: a body on it gets the normals of what it touches, and no others.
 
 use super::scenes::{Random, body, mesh};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3, TriMesh};
 use asunder_narrow::Pair3;
 
-/// An arc of so many facets around the z axis, from -60 to 60 degrees about straight up, with its front outside or
-/// inside. The angles come from a rational half-turn formula.
+/// An arc of `facets` facets around the z axis, from -60 to 60 degrees about straight up, with its front outside or
+/// inside. The angles come from a rational half-angle formula.
 fn arc(facets: usize, radius: f64, is_inside: bool) -> TriMesh {
     let slices = 7;
     let point = |i: usize| {
@@ -66,7 +66,7 @@ fn bodies_see_only_what_they_touch(is_inside: bool) -> usize {
                     let away = random.between(0.2, 0.5);
                     let (up, radius) = if is_inside { (-y, 3.0 - away) } else { (y, 3.0 + away) };
                     let place = DVec3::new(x * radius, up * radius, random.signed());
-                    // Lying on the arc: turned by the same angle about z.
+                    // Lying on the arc: rotated about z by the same angle.
                     let lean = if is_inside { half } else { -half };
                     let turn = asunder_geometry::glam::Quat::from_xyzw(0.0, 0.0, lean as f32, 1.0);
                     let pose = Pose3::new(place, turn).unwrap();
@@ -92,7 +92,7 @@ fn bodies_see_only_what_they_touch(is_inside: bool) -> usize {
 #[test]
 fn on_a_hill_of_facets_no_normal_is_beyond_those_of_the_facets() {
     let seen = bodies_see_only_what_they_touch(false);
-    // One each, for the most part: a lift off the facet under the middle frees the others.
+    // Mostly one each: a lift off the facet under the centre frees the body from the others.
     assert!(seen > 300, "only {seen} manifolds");
 }
 
@@ -102,7 +102,7 @@ fn in_a_hollow_of_facets_no_normal_is_beyond_those_of_the_facets() {
     assert!(seen > 500, "only {seen} manifolds");
 }
 
-/// A ball that rolls over a hill of facets keeps close to the hill: it is never thrown off, and never sinks in.
+/// A ball that rolls over a faceted hill stays close to it: it is never thrown off, and never sinks in.
 #[test]
 fn a_ball_over_a_hill_follows_it() {
     let mesh = arc(120, 3.0, false);

@@ -1,5 +1,5 @@
-//! What edges and corners of ground may say: convex ones give normals between those beside them, flat and concave ones
-//! none of their own; one-sided ground says nothing from behind.
+//! Which normals edges and corners of ground give: convex ones those between the adjacent faces' normals, flat and
+//! concave ones none of their own; one-sided ground gives none from behind.
 
 use super::scenes::{BODIES, Random, body, grid, mesh};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
@@ -14,7 +14,7 @@ fn at(x: f64, y: f64, z: f64) -> Pose3 {
     Pose3::at([x, y, z]).unwrap()
 }
 
-/// A profile in x and y, drawn out along z in pieces; its front is to the left of its direction.
+/// A profile in x and y, extruded along z in pieces; its front is to the left of its direction.
 fn profile(points: &[[f32; 2]], pieces: usize) -> TriMesh {
     let count = points.len();
     let vertices: Vec<Vec3> = (0..=pieces)
@@ -36,7 +36,7 @@ fn manifolds(body: &Shape3, pose: &Pose3, ground: &TriMesh, margin: f32) -> Vec<
     Pair3::new(body, pose, &ground.clone().into(), &Pose3::IDENTITY).manifolds(margin)
 }
 
-/// From the ground to the body, which is A.
+/// Normals from the ground to the body, which is A.
 fn normals(manifolds: &[Manifold3]) -> Vec<Vec3> {
     manifolds.iter().map(|manifold| -manifold.normal).collect()
 }
@@ -81,7 +81,7 @@ fn a_box_over_a_ridge_may_lean_between_both_roofs_and_no_further() {
 
 #[test]
 fn a_spike_under_a_box_pushes_along_the_face_of_the_box() {
-    // A pyramid of four sides.
+    // A four-sided pyramid.
     let ring = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, z]| Vec3::new(x, -2.0, z));
     let vertices: Vec<Vec3> = ring.into_iter().chain([Vec3::new(0.1, 0.0, 0.1)]).collect();
     let spike = mesh((vertices, vec![[0, 4, 1], [1, 4, 2], [2, 4, 3], [3, 4, 0]]));
@@ -92,7 +92,7 @@ fn a_spike_under_a_box_pushes_along_the_face_of_the_box() {
         assert_eq!(found[0].points.len(), 1);
         assert_eq!(found[0].points[0].feature.b(), Feature::Vertex(4));
         assert!((found[0].separation + 0.01).abs() < 1e-6);
-        // And a ball beside it, by the edge or the corner between them.
+        // A ball beside its tip touches the edge or the corner between the faces.
         let ball: Shape3 = Sphere::new(0.25).unwrap().into();
         let found = manifolds(&ball, &at(0.15, 0.235, 0.05), &ground, 0.0);
         assert_near(-found[0].normal, Vec3::new(0.05, 0.235, -0.05));
@@ -103,13 +103,13 @@ fn a_spike_under_a_box_pushes_along_the_face_of_the_box() {
 fn a_box_on_a_cliff_gets_no_push_from_the_inner_edges_of_the_top() {
     let cliff = profile(&[[-2.0, 0.0], [-1.0, 0.0], [0.0, 0.0], [0.0, -3.0]], 5);
     for ground in [cliff.clone(), cliff.one_sided()] {
-        // It stands over the rim.
+        // The box stands across the rim.
         let found = manifolds(&cuboid(0.5, 0.3, 0.5), &at(-0.3, 0.295, 0.1), &ground, 0.0);
         assert_eq!(normals(&found), [Vec3::Y], "{found:?}");
         assert_eq!(found[0].points.len(), 4);
         let furthest = found[0].points.iter().map(|p| p.anchor_b.x).fold(f32::MIN, f32::max);
         assert!(furthest.abs() < 1e-6, "it rests up to the rim, not {furthest}");
-        // It leans against the wall from outside: the top has nothing to say.
+        // It leans against the wall from outside: the top gives no contact.
         let found = manifolds(&cuboid(0.5, 0.3, 0.5), &at(0.495, -0.1, 0.1), &ground, 0.0);
         assert_eq!(normals(&found), [Vec3::X], "{found:?}");
         // A ball rolls over the rim: the normal turns from the top's to the wall's.
@@ -131,7 +131,7 @@ fn in_a_groove_and_in_a_corner_each_wall_pushes_along_its_own_normal() {
     assert_eq!(found.len(), 2, "{found:?}");
     assert_near(found[0], Vec3::new(-1.0, 1.0, 0.0));
     assert_near(found[1], Vec3::new(1.0, 1.0, 0.0));
-    // Stood on an edge.
+    // A box that stands on an edge.
     let turn = Quat::from_xyzw(0.0, 0.0, 0.414_213_56, 1.0);
     let pose = Pose3::new(DVec3::new(0.0, bottom - 0.01, 0.3), turn).unwrap();
     let mut found = normals(&manifolds(&cuboid(0.5, 0.5, 0.5), &pose, &groove, 0.0));
@@ -141,7 +141,7 @@ fn in_a_groove_and_in_a_corner_each_wall_pushes_along_its_own_normal() {
     assert_near(found[1], Vec3::new(1.0, 1.0, 0.0));
 }
 
-/// Three squares that look at (1, 1, 1), each of so many pieces a side.
+/// Three squares that face (1, 1, 1), each cut into `pieces` a side.
 fn room(pieces: usize) -> TriMesh {
     let (vertices, triangles) = grid([pieces; 2], 2.0 / pieces as f32, |_, _| Vec3::ZERO);
     let mut all = (Vec::new(), Vec::new());
@@ -256,7 +256,7 @@ fn one_sided_ground_sees_a_half_space_by_its_direction_wherever_its_position_is(
     }
 }
 
-/// What stands square to a half-space's plane is seen from either side, turned or not, and a cast says so, too.
+/// A wall perpendicular to a half-space's plane collides from either side, turned or not, in casts as well.
 #[test]
 fn a_one_sided_wall_is_seen_by_a_half_space_that_it_stands_square_to() {
     let wall = mesh((vec![Vec3::ZERO, Vec3::Y, Vec3::Z], vec![[0, 1, 2]])).one_sided();
@@ -274,10 +274,10 @@ fn a_one_sided_wall_is_seen_by_a_half_space_that_it_stands_square_to() {
     }
 }
 
-/// Symptom: a plank that lay over the edge of a step, turned by a few ten-thousandths and a millimetre deep in its
-/// tread, was to be pushed half a metre sideways, out of the riser. Cause: the tread refused its own normal as an axis,
-/// and so was not heard when it was asked whether a lift frees the plank of the riser too; and that was told by the
-/// plank's lowest corner, which lay beside all ground.
+/// Symptom: a plank over the edge of a step, turned by a few ten-thousandths and a millimetre deep in the tread, was to
+/// be pushed half a metre sideways, out of the riser. Cause: the tread's normal was rejected as its axis, so the tread
+/// was not considered when testing whether a lift also frees the plank from the riser; and that test used the plank's
+/// lowest corner, which lay beside all ground.
 #[test]
 fn a_plank_over_the_edge_of_a_step_is_lifted_off() {
     let step = profile(&[[-1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]], 2);
@@ -295,7 +295,8 @@ fn a_plank_over_the_edge_of_a_step_is_lifted_off() {
                 {
                     let pose = |height: f64| Pose3::new([along, height, 0.0], turn).unwrap();
                     let above = pose(2.0);
-                    // As deep as that in what it meets first on its way down: what lifts it by more frees it.
+                    // Depths are relative to what the plank hits first on its way down: a lift by more than that frees
+                    // it.
                     let cast = Pair3::new(&plank, &above, &solid, &Pose3::IDENTITY).cast(Vec3::NEG_Y);
                     let on = 2.0 - cast.unwrap().fraction;
                     for manifold in manifolds(&plank, &pose(on - depth), &ground, 0.01) {

@@ -1,12 +1,11 @@
-//! Contacts on height fields against those on meshes of the same triangles, which a loop over all triangles vouches
-//! for.
+//! Contacts on height fields against those on meshes of the same triangles, which a loop over all triangles verifies.
 
 use super::scenes::{BODIES, Random, body, stick};
 use asunder_geometry::glam::{Quat, Vec2, Vec3};
 use asunder_geometry::{Ground, HeightField, Pose3, Shape3, TriMesh};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Manifold3, collide3};
 
-/// The mesh of a field's triangles: the same vertices and the same numbers, nothing in its holes.
+/// The mesh of a field's triangles: the same vertices and triangle numbers, with nothing in its holes.
 fn as_mesh(field: &HeightField) -> TriMesh {
     let ground = Ground::Field(field);
     let place = |(number, &height): (usize, &f32)| {
@@ -14,7 +13,7 @@ fn as_mesh(field: &HeightField) -> TriMesh {
         Vec3::new(column * field.cell().x, height, row * field.cell().y)
     };
     let vertices: Vec<Vec3> = field.heights().iter().enumerate().map(place).collect();
-    // Of a hole, triangles that are dropped: the others keep their numbers.
+    // A hole becomes degenerate triangles, which are dropped: the others keep their numbers.
     let triangle = |number| ground.triangle(number).map_or([0; 3], |_| ground.vertex_numbers(number));
     let triangles: Vec<[u32; 3]> = (0..ground.triangle_count()).map(triangle).collect();
     let mesh = TriMesh::new(vertices, triangles).unwrap();
@@ -40,7 +39,7 @@ fn field(random: &mut Random, kind: usize, cells: usize) -> HeightField {
     if random.below(2) == 0 { field.one_sided() } else { field }
 }
 
-/// Whether they overlap, if they are in contact, and how.
+/// Whether the two overlap, if they are in contact, and their manifolds.
 type Told = (Option<bool>, Vec<Manifold3>);
 
 fn told([shape_a, shape_b]: [&Shape3; 2], [pose_a, pose_b]: [&Pose3; 2], margin: f32) -> Told {
@@ -54,7 +53,7 @@ fn told([shape_a, shape_b]: [&Shape3; 2], [pose_a, pose_b]: [&Pose3; 2], margin:
     (contact, batch.manifolds.clone())
 }
 
-/// What is told of a body beside a field of so many cells a side, and on the mesh of its triangles.
+/// The contact of a body with a field of `cells` a side, and with the mesh of its triangles.
 fn on_both(random: &mut Random, round: usize, cells: usize) -> [Told; 2] {
     let field = field(random, round % 5, cells);
     let mesh = as_mesh(&field);
@@ -79,7 +78,7 @@ fn on_both(random: &mut Random, round: usize, cells: usize) -> [Told; 2] {
     })
 }
 
-/// Of so few, both hand over what is near in the order of its numbers.
+/// With so few triangles, both process nearby triangles in the order of their numbers.
 #[test]
 fn on_a_small_height_field_all_is_told_that_the_mesh_of_its_triangles_tells_bit_for_bit() {
     let mut random = Random::new(53);
@@ -92,8 +91,9 @@ fn on_a_small_height_field_all_is_told_that_the_mesh_of_its_triangles_tells_bit_
     assert!(counts.iter().all(|&count| count > 100), "apart, near, overlapping: {counts:?}");
 }
 
-/// Of many, a mesh hands them over in another order, and of those that say the same, as two beside an edge do, the
-/// first is heard: names depend on it, and points of deep contacts. Not so yes and no, nor how wide a gap is.
+/// With many triangles, a mesh processes them in another order, and of those with equal contacts, as two beside an
+/// edge, the first one wins: feature ids depend on it, and points of deep contacts; overlap and the widths of gaps do
+/// not.
 #[test]
 fn on_a_height_field_yes_and_no_and_gaps_are_those_of_the_mesh_of_its_triangles() {
     let mut random = Random::new(59);

@@ -1,4 +1,4 @@
-//! Triangles of kilometres beside bodies of a metre: what is told of them is rounded as their furthest corner is.
+//! Triangles of kilometres beside bodies of a metre: errors follow the rounding of the triangle's furthest corner.
 
 use asunder_geometry::{Cuboid, Pose3, Shape3, Sphere, TriMesh, Triangle3};
 use asunder_narrow::Pair3;
@@ -6,7 +6,8 @@ use asunder_tests::cases::Random;
 use asunder_tests::exact_overlap::exact_overlap3;
 use glam::{DVec3, Vec3};
 
-/// A triangle as a mesh says what it says by itself, which is what exact arithmetic says; so do its contacts.
+/// Asserts that a triangle as a mesh agrees with the bare triangle, which agrees with exact arithmetic; and so do its
+/// contacts. Returns whether they overlap.
 fn is_exact(corners: [Vec3; 3], body: &Shape3, at: DVec3) -> bool {
     let mesh: Shape3 = TriMesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap().into();
     let alone: Shape3 = Triangle3::new(corners[0], corners[1], corners[2]).unwrap().into();
@@ -16,7 +17,7 @@ fn is_exact(corners: [Vec3; 3], body: &Shape3, at: DVec3) -> bool {
         [Pair3::new(&mesh, &Pose3::IDENTITY, body, &there), Pair3::new(body, &there, &mesh, &Pose3::IDENTITY)]
     {
         assert_eq!(pair.overlaps(), exact, "{corners:?} {body:?} {at}");
-        // A gap below rounding may have a manifold, but no depth.
+        // A gap below rounding may have a manifold, but no penetration.
         let is_deep = pair.manifold(0.0).is_some_and(|manifold| manifold.separation <= 0.0);
         assert_eq!(is_deep, exact, "{corners:?} {body:?} {at}");
         assert_eq!(pair.distance().is_none(), exact, "{corners:?} {body:?} {at}");
@@ -24,8 +25,8 @@ fn is_exact(corners: [Vec3; 3], body: &Shape3, at: DVec3) -> bool {
     exact
 }
 
-/// Symptom: a sphere 1e-13 m beside the edge of a triangle of 9 km was told to touch it. Cause: rounding was allowed
-/// for that of the corner that faces the longest side, and the edge began at another.
+/// Symptom: a sphere 1e-13 m beside the edge of a triangle of 9 km was reported to touch it. Cause: the error bound was
+/// for the rounding of the corner opposite the longest side, and the edge began at another corner.
 #[test]
 fn spheres_beside_long_edges_are_told_exactly() {
     let ball: Shape3 = Sphere::new(0.5).unwrap().into();
@@ -37,7 +38,7 @@ fn spheres_beside_long_edges_are_told_exactly() {
     assert!(!is_exact(long, &ball, at));
 }
 
-/// The same at random: beside an edge, at its foot near home, further apart or deeper than f64 tells.
+/// The same at random: beside an edge, at its foot near the origin, gaps and depths around what f64 resolves.
 #[test]
 fn bodies_beside_far_corners_are_told_exactly() {
     let mut random = Random::new(2711);
@@ -45,7 +46,7 @@ fn bodies_beside_far_corners_are_told_exactly() {
     for round in 0..6_000 {
         let far = [100.0, 3e3, 8e4][round % 3];
         let mut corner = |size: f64| (random.vector() * size).as_vec3();
-        // One corner is near home, in any place of the three.
+        // One corner is near the origin, at any of the three positions.
         let mut corners = [corner(far), corner(1.0), corner(far)];
         corners.rotate_left(round / 3 % 3);
         let near = corners.iter().position(|v| v.length() < 2.0).unwrap();
@@ -65,7 +66,7 @@ fn bodies_beside_far_corners_are_told_exactly() {
             (Cuboid::from_half_extents(half).unwrap().into(), half.as_dvec3().dot(way.abs()))
         };
         let is_ball = matches!(body, Shape3::Sphere(_));
-        // A cuboid's corner that looks at the foot is there.
+        // The cuboid's corner that faces the foot is there.
         let at = if is_ball {
             foot + way * (reach + gap)
         } else {

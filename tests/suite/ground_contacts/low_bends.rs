@@ -1,4 +1,4 @@
-//! Ground of many low bends in a row: each too low to give a normal, and all together no plane under one body.
+//! Ground of many low bends in a row: each too low to give a normal, and together not a plane under one body.
 
 use asunder_geometry::glam::{DQuat, DVec3, Vec2, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Ground, HeightField, Hull, Pose3, Shape3, Sphere, TriMesh};
@@ -9,7 +9,7 @@ use core::fmt;
 
 const MARGIN: f32 = 0.02;
 
-/// Ground, its triangles, how it is turned from axes in which up is y, and where its middle is.
+/// Ground, its triangles, its rotation from axes in which up is y, and its centre.
 struct Laid {
     shape: Shape3,
     corners: Vec<[Vec3; 3]>,
@@ -29,7 +29,7 @@ impl Laid {
     }
 }
 
-/// How high ground of a kind is at a place in cells, where its bends are about one.
+/// The height of a kind of ground at a place in cells, scaled so that its bends are about one.
 fn height(random: &mut Random, kind: usize, [x, z]: [f64; 2], [along_x, along_z]: [f64; 2]) -> f64 {
     let dome = -0.5 * (x * x * along_x + z * z * along_z);
     match kind {
@@ -52,7 +52,7 @@ fn height(random: &mut Random, kind: usize, [x, z]: [f64; 2], [along_x, along_z]
 fn ground(random: &mut Random, bend: f64) -> Laid {
     let (kind, cells) = (random.below(8), random.pick(&[6_u32, 10, 16, 24]));
     let step = random.pick(&[0.04, 0.1, 0.25, 0.6]) * random.between(0.7, 1.3);
-    // No smaller than what stands on it: beyond rims there is nothing to tell of one-sided ground.
+    // No smaller than what stands on it: beyond its rims one-sided ground gives no contacts.
     let step = step.max(1.6 / f64::from(cells));
     let along = [0, 1].map(|_| random.pick(&[1.0, 1.0, 0.3]));
     let shift = [0, 1].map(|_| 0.5 * random.signed());
@@ -123,7 +123,7 @@ fn body(random: &mut Random) -> Shape3 {
     }
 }
 
-/// A body on ground, so far from all its triangles one by one, up to an error; and what is told.
+/// A body on ground: its true distance from the triangles one by one, with an error; and the manifolds.
 struct Case {
     story: String,
     radius: f64,
@@ -142,11 +142,11 @@ struct Stand {
     laid: Laid,
     body: Shape3,
     at: Pose3,
-    /// The ground is A.
+    /// Whether the ground is A.
     is_turned: bool,
 }
 
-/// A body let down on ground of bends about this one until its least separation is about `gap`.
+/// A body lowered onto ground with bends of about `bend` until its least separation is about `gap`.
 fn stand(random: &mut Random, bend: f64, gap: f64) -> Stand {
     let (laid, body) = (ground(random, bend), body(random));
     let about = laid.turn * DQuat::from_rotation_y(random.between(0.0, 6.0));
@@ -168,7 +168,7 @@ fn stand(random: &mut Random, bend: f64, gap: f64) -> Stand {
 }
 
 impl Stand {
-    /// What belongs to the body and to the ground, as A's and B's.
+    /// Orders the body's and the ground's as A's and B's.
     fn ordered<T>(&self, [body, ground]: [T; 2]) -> [T; 2] {
         if self.is_turned { [ground, body] } else { [body, ground] }
     }
@@ -193,9 +193,9 @@ fn case(random: &mut Random, bend: f64, gap: f64) -> Option<Case> {
 
 const BENDS: [f64; 8] = [1e-6, 1e-5, 3e-5, 4.5e-5, 6e-5, 9e-5, 1.2e-4, 2e-4];
 
-/// Symptom: over domes, roofs and cobbles of bends that give no normals, gaps were told too wide by up to a ten
-/// thousandth of the body, beyond their errors, in one case of three hundred. Cause: a triangle that stands up between
-/// the points that are told counted only if its normal was theirs, and of each plane the first triangle that was seen.
+/// Symptom: over domes, roofs and cobbles of bends that give no normals, gaps were reported too wide by up to a ten
+/// thousandth of the body, beyond their errors, in one case of three hundred. Cause: a triangle that rises between the
+/// contact points counted only if its normal was theirs, and for each plane only the first triangle processed.
 #[test]
 fn a_gap_over_many_low_bends_is_within_its_error() {
     let mut random = Random::new(0x0010_BE4D_0D0E);
@@ -218,7 +218,7 @@ fn a_gap_over_many_low_bends_is_within_its_error() {
     );
 }
 
-/// The same in overlap: what is deepest of triangles one by one bounds how deep a body is in ground.
+/// The same in overlap: the deepest of the triangles one by one bounds how deep a body is in ground.
 #[test]
 fn an_overlap_over_many_low_bends_is_no_deeper_than_its_error() {
     let mut random = Random::new(0x0010_BE4D_0DEE);
@@ -242,8 +242,8 @@ fn an_overlap_over_many_low_bends_is_no_deeper_than_its_error() {
 }
 
 /// Symptom: manifolds that were moved along over low bends were off by up to a millionth of the body beyond their
-/// errors, in one case of four hundred. Cause: ground that stands between points, along normals that count as theirs,
-/// rises otherwise than they do; what the way costs was known of the points alone.
+/// errors, in one case of four hundred. Cause: ground that rises between the points, along normals that count as
+/// theirs, changes its separation otherwise than they do; the error added for the motion was known for the points only.
 #[test]
 fn what_is_moved_along_over_low_bends_is_within_its_error() {
     let mut random = Random::new(0x0010_BE4D_0A1C);
@@ -280,7 +280,7 @@ fn what_is_moved_along_over_low_bends_is_within_its_error() {
             carried += 1;
             let told = found.iter().min_by(|one, other| one.separation.total_cmp(&other.separation)).unwrap();
             let off = f64::from(told.separation) - separation;
-            // In overlap, triangles one by one bound how deep the body is.
+            // In overlap, the triangles one by one only bound how deep the body is.
             let off = if separation > error { off.abs() } else { off };
             let may = error + f64::from(told.error);
             let story = format!("{number}: bend {bend}, gap {gap}, {:?}", stand.body);

@@ -1,20 +1,20 @@
-//! Bodies beside the rim of a triangle so thin that its sides are level to each other.
+//! Bodies beside the rim of a triangle so thin that its long sides count as parallel.
 
 use asunder_geometry::{Capsule3, Cuboid, Pose3, Shape3, TriMesh};
 use asunder_narrow::Pair3;
 use asunder_scenes::random::Random;
 use glam::{DVec3, Vec3};
 
-/// A triangle whose long side is along x through the origin, and whose apex is so far away in z.
+/// A triangle whose long side is along x through the origin, and whose apex is at z = `apex`.
 fn triangle(apex: f32, is_one_sided: bool) -> Shape3 {
     let corners = [Vec3::new(-0.5, 0.0, 0.0), Vec3::new(0.0, 0.0, apex), Vec3::new(0.5, 0.0, 0.0)];
     let mesh = TriMesh::new(corners, [[0, 1, 2]]).unwrap();
     (if is_one_sided { mesh.one_sided() } else { mesh }).into()
 }
 
-/// Symptom: a body that reached some micrometres over the rim of a needle, and centimetres below it, was told to be
-/// centimetres deep, and to leave upwards.
-/// Cause: all of a needle is level to what leads across it, and so no side of it gave that direction.
+/// Symptom: a body that reached some micrometres over the rim of a needle, and centimetres below it, was reported to be
+/// centimetres deep, and to leave upwards. Cause: all of a needle is level, within tolerance, to the direction across
+/// it, and so no side of it gave that direction.
 #[test]
 fn the_rim_of_a_needle_gives_what_that_of_a_stocky_triangle_does() {
     let mut random = Random::new(5);

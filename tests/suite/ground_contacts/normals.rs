@@ -1,4 +1,4 @@
-//! Manifolds of one convex part on ground: no two of them say the same.
+//! Manifolds of one convex part on ground: no two of them have the same normal.
 
 use super::scenes::{BODIES, Random, baked, body, flat, grid, mesh, stick};
 use asunder_geometry::glam::{Quat, Vec3};
@@ -6,15 +6,15 @@ use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Pose3, Shape3, TriMesh};
 use asunder_narrow::{ContactPoint3, Manifold3, Pair3};
 
-/// What the sine between two normals may lose when they are told in f32.
+/// The sine between two normals may lose this much when they are rounded to f32.
 const ROUNDED: f64 = 4.0 * f32::EPSILON as f64;
 
-/// Kinds of ground.
+/// Number of kinds of ground.
 const GROUNDS: usize = 8;
 
-/// Rough ground, steps, a plane whose vertices are rounded, bends far below the tolerance, and about as large: of a row
-/// of normals that are each the same as the next and not as the last, which come together depends on which are heard
-/// first.
+/// Rough ground, steps, a plane whose vertices are rounded, bends far below the tolerance, and bends close to it: in a
+/// row of normals, each may count as the same as the next but not as the last, and which are merged depends on the
+/// order.
 fn ground(random: &mut Random, kind: usize) -> TriMesh {
     let bumps = |random: &mut Random, rough: f64| {
         let heights: Vec<f32> = (0..81).map(|_| (random.signed() * rough) as f32).collect();
@@ -29,7 +29,8 @@ fn ground(random: &mut Random, kind: usize) -> TriMesh {
     if random.below(2) == 0 { made.one_sided() } else { made }
 }
 
-/// Two normals of a part are further apart than what counts as one, and points of a manifold have names of their own.
+/// Asserts that two normals of a part differ by more than what counts as one, and that the points of a manifold have
+/// distinct feature ids.
 fn check(manifolds: &[Manifold3], what: &str) {
     for (place, one) in manifolds.iter().enumerate() {
         for other in manifolds[..place].iter().filter(|other| other.part_a == one.part_a) {
@@ -55,7 +56,7 @@ fn no_two_manifolds_of_a_part_have_the_same_normal_and_no_two_points_the_same_na
         let shape = if body_kind == BODIES { stick() } else { body(body_kind) };
         let corner = ground.vertices()[random.below(ground.vertices().len())].as_dvec3();
         let place = corner + random.vector() * 0.5;
-        // Faces on faces now and then: all of many triangles have something to say.
+        // Faces on faces now and then: all of many triangles give contacts.
         let turn = match random.below(3) {
             0 => Quat::from_xyzw(0.0, random.signed() as f32, 0.0, 1.0),
             _ => random.rotation(),

@@ -1,11 +1,11 @@
-//! Order does not matter: of the two shapes, nor of the jobs in a batch.
+//! Order does not matter: neither of the two shapes, nor of the jobs in a batch.
 
 use super::scenes::{BODIES, Random, body, grid, mesh};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, FeatureId, Hint, Job3, Manifold3, Pair3, collide3};
 
-/// The same with both shapes swapped.
+/// The manifold with A and B swapped.
 fn mirrored(manifold: &Manifold3) -> Manifold3 {
     let mut mirrored = *manifold;
     core::mem::swap(&mut mirrored.part_a, &mut mirrored.part_b);

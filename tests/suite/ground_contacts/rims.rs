@@ -1,5 +1,5 @@
-//! What reaches around the rim of two-sided ground, or around a fold: its centre is on one side, and what is nearest on
-//! the other.
+//! Bodies that reach around the rim of two-sided ground, or around a fold: the centre is on one side, and the closest
+//! points on the other.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, TriMesh};
@@ -9,14 +9,14 @@ use asunder_tests::cases::Random;
 
 const MARGIN: f32 = 0.02;
 
-/// Two triangles at random with one edge in common, or one of them alone.
+/// Two random triangles that share an edge, or one of them alone.
 fn fold(random: &mut Random) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let vertices = (0..4).map(|_| (random.vector() * 1.2).as_vec3()).collect();
     let count = 1 + random.below(2);
     (vertices, [[0, 1, 2], [1, 0, 3]][..count].to_vec())
 }
 
-/// A long body with its middle in the origin that reaches so far along z: round, flat, or with corners.
+/// A long body centred on the origin that reaches to `reach` along z: round, flat, or with corners.
 fn rod(random: &mut Random, reach: f32) -> Shape3 {
     let thin = random.between(0.03, 0.15) as f32;
     match random.below(4) {
@@ -51,9 +51,9 @@ fn around(random: &mut Random, [a, b, c]: [DVec3; 3], reach: f64) -> Option<Pose
     Pose3::new(from + way * (0.9 * reach), turn).ok()
 }
 
-/// Symptom: what reached around a rim had no contact in a gap within its margin, twenty times in a million, and one of
-/// four points further off than its error said. Cause: ground refused the direction that leads from its other side, and
-/// the kernels' points were taken for all that they had found.
+/// Symptom: a body that reached around a rim had no contact for a gap within its margin, twenty times in a million, and
+/// one of four points was off by more than its error. Cause: ground rejected the direction that leads from its other
+/// side, and the kernels' points were taken for all that they had found.
 #[test]
 fn what_reaches_around_a_rim_is_told() {
     let mut random = Random::new(0x51DE_0F17);
@@ -94,10 +94,11 @@ fn what_reaches_around_a_rim_is_told() {
     assert!(told > 3000 && behind > 300, "{told} told, {behind} of them on the other side than the middle");
 }
 
-/// Symptom: a rounded crate in a groove was told to be 4 mm from both its slopes, or to have no contact, and was 0.9 mm
-/// from either. Cause: the rounds of its lower edges lead over the narrow slopes from rim to rim, no corner is over
-/// them, and along the slopes' own normals only what crosses the rims was told. Three millimetres lower, 1.2 mm from
-/// one slope and in it in truth: the surface was taken for the face's plane where it is the round of an edge.
+/// Symptom: a rounded crate in a groove was reported 4 mm from both its slopes, or without a contact, and was 0.9 mm
+/// from either. Cause: the rounded lower edges cross the narrow slopes from rim to rim with no corner over them, and
+/// along the slopes' normals only their crossings with the rims were reported. Three millimetres lower, it was reported
+/// 1.2 mm from one slope and overlapped it in truth: its surface was taken for the face's plane where it is the
+/// rounding of an edge.
 #[test]
 fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
     let vertices: Vec<Vec3> = [-1.0_f32, 0.0, 1.0]
@@ -113,7 +114,7 @@ fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
             for (aside, gap) in
                 [0.0, 3e-4, -3e-4].into_iter().flat_map(|aside| [1e-3, -2e-3].map(|gap| (aside, gap)))
             {
-                // A slope of one half, as far from the round of the edge over it as is wanted.
+                // A slope of one half, with the wanted gap to the rounded edge above it.
                 let cosine = 1.0 / 1.25_f64.sqrt();
                 let (wide, round) = (f64::from(half.x), f64::from(radius));
                 let up = 0.5 * wide + (round + gap) / cosine + f64::from(half.y);
@@ -121,7 +122,7 @@ fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
                 let manifolds = Pair3::new(&body, &at, &ground, &Pose3::IDENTITY).manifolds(margin);
                 assert_eq!(manifolds.len(), 2, "{half} {aside}: {manifolds:?}");
                 for manifold in manifolds {
-                    // The body is A, and leans on the slope that its normal leads down to.
+                    // The body is A, and the normal leads down to the slope that it leans on.
                     let side = f64::from(manifold.normal.x.signum());
                     let truth = gap - side * aside * 0.5 * cosine;
                     let off = (f64::from(manifold.separation) - truth).abs();
@@ -135,10 +136,10 @@ fn a_rounded_crate_in_a_groove_stands_on_both_slopes() {
     }
 }
 
-/// Symptom: a plank, turned by a ten-thousandth against the floor that it hovered over the rim of, was told to be 20 um
-/// further from it than it was. Cause: a cut across the floor counts as level to the plank's face, and where it passed
-/// under that face was taken for what is nearest. Its upper end was not under the face, and the floor's rim, which
-/// leaves that end, passed under it nearer.
+/// Symptom: a plank that hovered over the rim of a floor, turned by a ten-thousandth against it, was reported 20 um
+/// further away than it was. Cause: a cut across the floor counts as level with the plank's face, and where it passed
+/// under that face it was taken for the closest feature. Its upper end was not under the face, and the floor's rim,
+/// which starts at that end, passed under the face nearer.
 #[test]
 fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
     const SIDE: u32 = 5;
@@ -169,9 +170,9 @@ fn a_cut_that_counts_as_level_does_not_hide_a_rim_that_is_nearer() {
     assert!(told > 6000, "{told} told");
 }
 
-/// Symptom: a prism whose corner was 5 um beside a ridge, 2 mm above it, was told to be 7e-9 m nearer than it was.
-/// Cause: the point that stands for the corner is where sides of both faces cross, a micrometre beside it, and told as
-/// the least of all.
+/// Symptom: a prism whose corner was 5 um beside a ridge, 2 mm above it, was reported 7e-9 m nearer than it was. Cause:
+/// the contact point that stands for the corner is where sides of both faces cross, a micrometre beside it, and its
+/// height was reported as the least of all.
 #[test]
 fn a_corner_beside_a_ridge_is_no_nearer_than_the_ridge_is() {
     let mut random = Random::new(0x0000_21D6);

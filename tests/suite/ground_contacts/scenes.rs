@@ -1,4 +1,4 @@
-//! Grounds and bodies.
+//! Ground and bodies for these tests.
 
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{
@@ -6,7 +6,7 @@ use asunder_geometry::{
 };
 use oorandom::Rand64;
 
-/// Numbers that are the same in every run.
+/// A seeded generator: the same numbers in every run.
 pub(super) struct Random(Rand64);
 
 impl Random {
@@ -37,10 +37,10 @@ impl Random {
     }
 }
 
-/// Every kind of body, about a metre across.
+/// Number of kinds of body, all about a metre across.
 pub(super) const BODIES: usize = 8;
 
-/// A body by its number.
+/// The body of a kind.
 pub(super) fn body(kind: usize) -> Shape3 {
     let half = Vec3::new(0.5, 0.25, 0.35);
     match kind {
@@ -66,12 +66,12 @@ pub(super) fn body(kind: usize) -> Shape3 {
     }
 }
 
-/// A segment, which has neither inside nor radius.
+/// A segment, which has no interior and no radius.
 pub(super) fn stick() -> Shape3 {
     Segment3::new(Vec3::new(-0.4, -0.1, 0.0), Vec3::new(0.4, 0.1, 0.2)).unwrap().into()
 }
 
-/// A hexagonal prism that stands on its base, a little askew above.
+/// A hexagonal prism that stands on its base, with a slightly skewed top.
 fn hull() -> Hull {
     let base = [[0.5, 0.0], [0.25, 0.4], [-0.25, 0.4], [-0.5, 0.0], [-0.25, -0.4], [0.25, -0.4]];
     let points: Vec<Vec3> = base
@@ -81,12 +81,12 @@ fn hull() -> Hull {
     Hull::from_points(&points).unwrap()
 }
 
-/// How far a body in rest pose reaches below its position.
+/// How far a body in its rest pose reaches below its position.
 pub(super) fn rest_height(kind: usize) -> f64 {
     [0.25, 0.35, 0.25, 0.33, 0.4, 0.25, 0.3, 0.0][kind]
 }
 
-/// Heights over a grid of squares, each cut in two; the diagonals turn from square to square.
+/// A grid of squares placed by `place`, each cut in two; the diagonals alternate from square to square.
 pub(super) fn grid(
     [wide, long]: [usize; 2],
     step: f32,
@@ -103,7 +103,7 @@ pub(super) fn grid(
     for z in 0..long {
         for x in 0..wide {
             let [a, b, c, d] = [number(x, z), number(x + 1, z), number(x, z + 1), number(x + 1, z + 1)];
-            // Counter-clockwise as seen from above.
+            // Counter-clockwise, seen from above.
             if (x + z) % 2 == 0 {
                 triangles.extend([[a, c, b], [b, c, d]]);
             } else {
@@ -117,7 +117,7 @@ pub(super) fn grid(
 /// Ways to cut the plane y = 0.
 pub(super) const FLATS: usize = 5;
 
-/// The plane y = 0, cut in a way.
+/// The plane y = 0, cut into triangles in one of the ways.
 pub(super) fn flat(way: usize) -> TriMesh {
     let mut random = Random::new(5);
     match way {
@@ -142,7 +142,7 @@ pub(super) fn flat(way: usize) -> TriMesh {
             let thin: Vec<Vec3> = vertices.iter().map(|v| Vec3::new(v.x * 40.0, 0.0, v.z * 0.04)).collect();
             mesh((thin, triangles))
         }
-        // Each triangle with corners of its own.
+        // Each triangle with its own vertices.
         _ => {
             let (vertices, triangles) = grid([16; 2], 0.5, |_, _| Vec3::ZERO);
             let own: Vec<Vec3> =
@@ -157,7 +157,7 @@ pub(super) fn mesh((vertices, triangles): (Vec<Vec3>, Vec<[u32; 3]>)) -> TriMesh
     TriMesh::new(vertices, triangles).unwrap()
 }
 
-/// The same mesh with its vertices turned, rounded to f32 as a modelling program would.
+/// The same mesh with its vertices rotated and rounded to f32, as a modelling program would.
 pub(super) fn baked(mesh: &TriMesh, turn: Quat, shift: Vec3) -> TriMesh {
     let basis = Pose3::new(DVec3::ZERO, turn).unwrap();
     let vertices: Vec<Vec3> =
@@ -167,8 +167,8 @@ pub(super) fn baked(mesh: &TriMesh, turn: Quat, shift: Vec3) -> TriMesh {
     baked
 }
 
-/// Whether a triangle of one-sided ground sees a part whose centre is there, in the ground's axes; nothing where
-/// rounding would tell.
+/// Whether a triangle of one-sided ground faces a part with this centre, in the ground's axes; `None` where rounding
+/// would decide.
 pub(super) fn sees(triangle: &Triangle3, center: DVec3) -> Option<bool> {
     let [a, b, c] = triangle.vertices().map(|v| v.as_dvec3());
     let normal = (b - a).cross(c - a).normalize();

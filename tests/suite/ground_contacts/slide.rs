@@ -1,4 +1,4 @@
-//! Bodies that slide over a plane that was cut into triangles notice nothing of it.
+//! Bodies that slide over a plane that is cut into triangles do not notice the cuts.
 //!
 //! A body falls a little each step and is pushed out by its deepest point; there is no friction. On a plane it keeps
 //! its speed and its height.
@@ -8,7 +8,7 @@ use asunder_geometry::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder_geometry::{Cuboid, HeightField, Pose3, Shape3, TriMesh};
 use asunder_narrow::{Feature, Manifold3, Pair3};
 
-/// Of the height and of the velocity, as a share of the body's size and of the speed.
+/// Tolerance of the height and of the velocity, as a share of the body's size and of the speed.
 const STEADY: f64 = 1e-4;
 
 /// Sine of 0.01 degrees.
@@ -16,21 +16,21 @@ const UPRIGHT: f64 = 1.745e-4;
 
 const STEP: f64 = 1.0 / 60.0;
 
-/// A body that slides on a plane, both in a world whose up is the ground's y axis.
+/// A body that slides on a plane, in a world whose up is the ground's y axis.
 struct Slide {
     shape: Shape3,
     ground: Shape3,
     ground_pose: Pose3,
-    /// The ground's own up.
+    /// Up in the ground's axes.
     up: DVec3,
-    /// Where the plane is along it.
+    /// The plane's height along `up`.
     level: f64,
     turn: Quat,
     rest: f64,
     position: DVec3,
     velocity: DVec3,
     ground_is_b: bool,
-    /// Whether the triangles lie in one plane beyond what f32 makes of them: then they are one patch.
+    /// Whether the triangles are coplanar even as rounded to f32: then they are one patch.
     is_one_patch: bool,
 }
 
@@ -55,7 +55,7 @@ impl Slide {
         if self.ground_is_b { -normal } else { normal }
     }
 
-    /// Falls, and is pushed out.
+    /// Falls for one step, and is pushed out.
     fn step(&mut self, what: &str) -> Vec<Manifold3> {
         self.velocity -= self.up * (9.81 * STEP);
         self.position += self.velocity * STEP;
@@ -81,7 +81,7 @@ impl Slide {
     }
 }
 
-/// The body's own vertices among the features of a manifold, and what of the ground they touch.
+/// The features of the body in a manifold, each with the feature of the ground that it touches.
 fn corners(manifold: &Manifold3, slide: &Slide) -> Vec<(Feature, Feature)> {
     let sides = |point: &asunder_narrow::ContactPoint3| {
         let (a, b) = (point.feature.a(), point.feature.b());
@@ -129,7 +129,8 @@ fn slide(mut slide: Slide, steps: usize, what: &str) {
     }
 }
 
-/// Turned about the up axis alone, so that it rests as it does without; by the tangent of half the angle.
+/// A rotation about the up axis only, so that the body rests as it does without; given by the tangent of half the
+/// angle.
 fn about_y(tangent: f64) -> Quat {
     Quat::from_xyzw(0.0, tangent as f32, 0.0, 1.0)
 }
@@ -139,19 +140,19 @@ fn about_y(tangent: f64) -> Quat {
 struct Plane {
     ground: Shape3,
     pose: Pose3,
-    /// Its own up.
+    /// Up in its axes.
     up: DVec3,
-    /// Where it is along that.
+    /// Its height along `up`.
     level: f64,
     middle: DVec3,
     is_one_patch: bool,
 }
 
 impl Plane {
-    /// A body that stands on it, turned so far about its up and beside its middle by so much, and slides.
+    /// A body that stands on it, rotated about up by `turn` and placed `beside` its middle, and slides.
     fn slide(self, (shape, rest): (Shape3, f64), turn: Quat, beside: DVec3, velocity: DVec3) -> Slide {
         let Self { ground, pose, up, level, middle, is_one_patch } = self;
-        // What the ground was turned by, if its vertices were.
+        // The rotation of the ground, if its vertices were rotated.
         let upright = Quat::from_rotation_arc(Vec3::Y, up.as_vec3().normalize());
         let start = middle + up * (level - middle.dot(up));
         Slide {
@@ -170,7 +171,7 @@ impl Plane {
     }
 }
 
-/// A body slides anyhow over a plane.
+/// Slides a body over a plane in a random direction.
 fn slide_anyhow(plane: Plane, kind: usize, round: usize, random: &mut Random, what: &str) {
     let up = plane.up;
     let turn = about_y(random.between(-2.0, 2.0));
@@ -200,7 +201,7 @@ fn over_flats(place: impl Fn(&mut Random, TriMesh) -> (TriMesh, Pose3, DVec3), s
                     up,
                     level: mesh.vertices()[0].as_dvec3().dot(up),
                     middle: mesh.center().as_dvec3(),
-                    // Rounded, a triangle of 20 m by 2 cm may lean by 1e-4.
+                    // Once rounded, a triangle of 20 m by 2 cm may be tilted by 1e-4.
                     is_one_patch: way != 3 || up == DVec3::Y,
                     ground: mesh.into(),
                 };
@@ -210,7 +211,7 @@ fn over_flats(place: impl Fn(&mut Random, TriMesh) -> (TriMesh, Pose3, DVec3), s
     }
 }
 
-/// A height field in one plane: how far it goes on along x and along z from one vertex to the next.
+/// A height field in one plane, given by the steps from one vertex to the next along x and along z.
 fn field(cells: [usize; 2], [along, across]: [DVec3; 2], pose: Pose3) -> Plane {
     let height = |column: usize, row: usize| along.y * column as f64 + across.y * row as f64;
     let heights: Vec<f32> =
@@ -263,9 +264,9 @@ fn on_a_height_field_it_does_the_same_level_tilted_and_turned() {
         ([16, 16], [DVec3::new(0.5, 0.0, 0.0), DVec3::new(0.0, 0.0, 0.5)]),
         // Triangles a thousand times as long as wide.
         ([2, 320], [DVec3::new(20.0, 0.0, 0.0), DVec3::new(0.0, 0.0, 0.02)]),
-        // Tilted, by heights that are not rounded.
+        // Tilted, with heights that are exact in f32.
         ([16, 16], [DVec3::new(0.5, 0.25, 0.0), DVec3::new(0.0, -0.125, 0.5)]),
-        // And by such that are, as places are.
+        // Tilted, with heights that are rounded, as positions are.
         ([20, 16], [DVec3::new(0.41, 0.3, 0.0), DVec3::new(0.0, 0.17, 0.53)]),
     ];
     for (way, (cells, steps)) in ways.into_iter().enumerate() {
@@ -285,11 +286,11 @@ fn on_a_height_field_it_does_the_same_level_tilted_and_turned() {
     }
 }
 
-/// Chances are that no direction drawn at random runs along a seam, and no side of a body lies over one.
+/// Random directions hardly ever run along a seam, and random bodies hardly ever have a side exactly over one.
 #[test]
 fn along_seams_square_to_them_and_with_sides_right_over_them_it_does_the_same() {
     let level = [DVec3::X * 0.5, DVec3::Z * 0.5];
-    // Sides of 3, 4 and 5: squares of 0.625 m by 0.5.
+    // A 3-4-5 slope: squares of 0.625 m by 0.5.
     let tilted = [DVec3::new(0.5, 0.375, 0.0), DVec3::Z * 0.5];
     let mesh = Plane {
         ground: flat(0).into(),
@@ -313,12 +314,12 @@ fn along_seams_square_to_them_and_with_sides_right_over_them_it_does_the_same() 
         let kinds = (0..BODIES - 1).map(|kind| (body(kind), rest_height(kind)));
         for (kind, standing) in [(block, 0.25)].into_iter().chain(kinds).enumerate() {
             for way in [along, -across, along + across, across - along] {
-                // As it is, a quarter turn, and half of that: along seams, and along the diagonals of squares.
+                // Unrotated, a quarter turn, and half of that: along seams, and along the diagonals of squares.
                 for (turn, tangent) in [0.0, 1.0, core::f64::consts::SQRT_2 - 1.0].into_iter().enumerate() {
-                    // Of squares: over a vertex, with all sides of a long block over seams, and anywhere.
+                    // Starts over a vertex, with all sides of a long block over seams, and anywhere; in squares.
                     for [u, v] in [[0.0, 0.0], [0.0, 0.5], [0.5, 0.0], [0.3, 0.4]] {
                         let beside = along * u + across * v - way;
-                        // An eighth of a square a step, so that steps end over seams, too.
+                        // An eighth of a square a step, so that steps also end exactly over seams.
                         let slide_it = plane.clone().slide(
                             standing.clone(),
                             about_y(tangent),

@@ -1,4 +1,4 @@
-//! Ground that is turned as a whole: its corners are rounded, so that no two of its triangles lie in one plane.
+//! Ground rotated as a whole: its corners are rounded, so that no two of its triangles are coplanar.
 
 use asunder_geometry::glam::{DQuat, DVec3, Vec3};
 use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, Shape3, Sphere, TriMesh};
@@ -6,7 +6,7 @@ use asunder_narrow::Pair3;
 use asunder_tests::bare_triangles::{nearest, told_within};
 use asunder_tests::cases::Random;
 
-/// Six by six squares about the origin, each of two triangles, as high as is said at a place in squares.
+/// Six by six squares about the origin, each of two triangles; `height` takes a place in squares.
 fn squares(step: f64, mut height: impl FnMut(f64) -> f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for (i, j) in (0..7).flat_map(|i| (0..7).map(move |j| (i, j))) {
@@ -20,7 +20,7 @@ fn squares(step: f64, mut height: impl FnMut(f64) -> f64) -> (Vec<DVec3>, Vec<[u
     (vertices, triangles)
 }
 
-/// Squares in a plane, or bent a little, and turned as a whole.
+/// Squares in a plane, or bent a little, and rotated as a whole.
 fn ground(random: &mut Random, bend: f64) -> (Vec<Vec3>, Vec<[u32; 3]>, DQuat) {
     let turn = random.quaternion().as_dquat();
     let step = random.between(0.05, 0.6);
@@ -38,9 +38,9 @@ fn body(random: &mut Random) -> Shape3 {
     Cuboid::from_half_extents(Vec3::from(half)).unwrap().into()
 }
 
-/// Symptom: on meshes that are turned as a whole, gaps were told wider than their errors allowed, by some billionths of
-/// a metre; over bends too low for a normal of their own, by a hundred thousandth of the body. Cause: what stands up
-/// between the points that are told was in no error.
+/// Symptom: on meshes rotated as a whole, gaps were reported wider than their errors allowed, by some billionths of a
+/// metre; over bends too low for a normal of their own, by a hundred thousandth of the body. Cause: what rises between
+/// the contact points was in no error.
 #[test]
 fn a_gap_over_turned_ground_is_within_its_error() {
     let mut random = Random::new(0x7042_3ED0);
@@ -51,13 +51,13 @@ fn a_gap_over_turned_ground_is_within_its_error() {
         let (vertices, triangles, turn) = ground(&mut random, bend);
         let mesh = TriMesh::new(vertices.clone(), triangles.clone()).unwrap();
         let body = body(&mut random);
-        // Face down more often than not, turned about the normal as it may be.
+        // Face down more often than not, with any rotation about the normal.
         let about = DQuat::from_rotation_y(random.between(0.0, 6.0));
         let pose = if random.below(3) == 0 { random.quaternion() } else { (turn * about).as_quat() };
         let (x, z) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
         let corners: Vec<[Vec3; 3]> =
             triangles.iter().map(|triangle| triangle.map(|vertex| vertices[vertex as usize])).collect();
-        // Let down until it is as far above as is wanted.
+        // Lowered until the gap is as wanted.
         let (mut height, gap) = (1.0, 0.005);
         let at = |height: f64| Pose3::new(turn * DVec3::new(x, height, z), pose).unwrap();
         for _ in 0..3 {
@@ -71,7 +71,7 @@ fn a_gap_over_turned_ground_is_within_its_error() {
         let manifolds = Pair3::new(&body, &at(height), &mesh.into(), &Pose3::IDENTITY).manifolds(margin);
         let least = told_within(&manifolds, (separation, error), format_args!("{case}, bend {bend}"));
         told += 1;
-        // On a plane that was only turned, the error is rounding.
+        // On a plane that was only rotated, the error is rounding.
         coarse += usize::from(bend == 0.0 && least.error > 2e-7);
     }
     assert!(
@@ -80,8 +80,9 @@ fn a_gap_over_turned_ground_is_within_its_error() {
     );
 }
 
-/// Symptom: a corner that hung past the end of ground by less than a millionth of its body was told as near as it was
-/// above the triangle's plane. Cause: places count as the same up to that much, and it was not in the error.
+/// Symptom: a corner that hung past the end of ground by less than a millionth of its body was reported as near as its
+/// height above the triangle's plane. Cause: positions count as the same up to that much, and the error did not include
+/// it.
 #[test]
 fn a_corner_beside_the_end_of_ground_is_within_its_error() {
     let mut random = Random::new(0xBE51_DE00);
@@ -125,10 +126,10 @@ fn a_corner_beside_the_end_of_ground_is_within_its_error() {
     assert!(beside > 3_000, "{beside}");
 }
 
-/// Symptom: a capsule that stood over the seam of two triangles with a bend of 1e-5 had no contact in a gap, nor had
-/// the tip of a hull in a wide one; a ball was told further off than its error by some billionths. Cause: what is
-/// nearest there is beside both triangles, by as much as the bend times the height, and of two points that stood for
-/// one the nearer was lost.
+/// Symptom: over the seam of two triangles with a bend of 1e-5, a capsule had no contact within its margin, nor had the
+/// tip of a hull across a wide gap; a ball was reported too far away, by some billionths more than its error. Cause:
+/// the closest point there is beside both triangles, by the bend times the height, and of two points that were merged
+/// the nearer was lost.
 #[test]
 fn what_stands_over_a_low_bend_has_its_contact() {
     let mut random = Random::new(0x10_BE4D);
@@ -149,7 +150,7 @@ fn what_stands_over_a_low_bend_has_its_contact() {
         let body = &bodies[case % 4];
         let mut slope = || random.pick(&[3e-7, 3e-6, 1e-5, 3e-5, 1e-4]) * random.between(0.5, 1.0);
         let (left, right) = (slope(), slope());
-        // Of squares of a metre, so that no rim is near.
+        // Squares of a metre, so that no rim is near.
         let roof = |x: f64| -x.abs() * if x < 0.0 { left } else { right };
         let (vertices, triangles) = squares(1.0, roof);
         let vertices: Vec<Vec3> = vertices.into_iter().map(|vertex| vertex.as_vec3()).collect();
@@ -179,8 +180,8 @@ fn what_stands_over_a_low_bend_has_its_contact() {
     assert!(over > 3_000, "{over}");
 }
 
-/// What low bends may hide is no reason to doubt what is told where bends give normals: of contacts on hills of bends
-/// about a thousandth, one in ten may happen to be where triangles bend less than that gives a normal.
+/// What low bends may hide must not widen errors where bends give normals: on hills with bends of about a thousandth,
+/// one contact in ten may happen to be where triangles bend too little to give a normal.
 #[test]
 fn errors_on_hills_are_small() {
     let mut random = Random::new(0x4111);

@@ -1,13 +1,13 @@
-//! Floors that end at a wall: what lies over the floor is told by all its corners there, however near the wall is, and
-//! by none that the floor alone would not tell. Seen first as a hammer that fell beside a house, and was told of one
-//! corner of its head.
+//! Floors that end at a wall: the manifold of a body over the floor has all its corners there, however near the wall
+//! is, and none that the floor alone would not give. First seen as a hammer that fell beside a house and got a contact
+//! at one corner of its head only.
 
 use super::scenes::{Random, mesh};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
 use asunder_geometry::{Cuboid, Pose3, Shape3};
 use asunder_narrow::{Manifold3, Pair3};
 
-/// Two triangles of floor, and two of wall, which stands at x = 1; the floor alone, if there is to be none.
+/// Two triangles of floor, and two of a wall at x = 1, if there is one.
 fn corner(has_wall: bool) -> Shape3 {
     let (low, high) = ([[-2.0, 0.0, -2.0], [-2.0, 0.0, 2.0]], [[1.0, 1.5, -2.0], [1.0, 1.5, 2.0]]);
     let vertices: Vec<Vec3> =

@@ -1,4 +1,4 @@
-//! What moves over ground, and turns.
+//! Bodies that move over ground, and turn.
 
 use super::{beside, level, mesh, sheet, triangles};
 use crate::casts::Course;
@@ -8,7 +8,7 @@ use asunder_narrow::{Impact3, Pair3};
 use asunder_tests::cases::{Case3, Random};
 use asunder_tests::shapes::{Clay, KINDS3};
 
-/// A body near ground, and a way that may lead there.
+/// A body near ground, and a displacement that may lead into it.
 fn cast_case(kind: usize, round: usize) -> (Case3, Vec3) {
     let mut random = Random::new((kind * 1000 + round) as u128);
     let (ground, at) = level(&mut random, round);
@@ -23,10 +23,10 @@ fn cast_case(kind: usize, round: usize) -> (Case3, Vec3) {
     (Case3 { shape_a: body, pose_a: pose, shape_b: ground, pose_b: at }, moved.as_vec3())
 }
 
-/// A triangle that is touched when it is alone: its number, itself, and when.
+/// A triangle that is hit when tested alone: its number, the triangle, and the impact.
 type Touched = (u32, Shape3, Impact3);
 
-/// Every triangle that is touched, the first touched first.
+/// All triangles that are hit, in order of time.
 fn slowly(course: &Course) -> Vec<Touched> {
     let Case3 { shape_a, pose_a, shape_b, pose_b } = course.case;
     let [of_body, of_ground] = &course.motions;
@@ -41,8 +41,8 @@ fn slowly(course: &Course) -> Vec<Touched> {
     touched
 }
 
-/// The numbers of the triangles that may be the first: those that are touched as early as the first of all, or are as
-/// near as touching when that is, as far as the errors tell.
+/// The numbers of the triangles that may be hit first: those hit at the time of the first impact, or that are touching
+/// at that time within the errors.
 fn first_of(course: &Course, touched: &[Touched]) -> Vec<u32> {
     let Some((.., first)) = touched.first() else { return vec![] };
     let Case3 { shape_a, pose_a, pose_b, .. } = course.case.clone();
@@ -57,7 +57,7 @@ fn first_of(course: &Course, touched: &[Touched]) -> Vec<u32> {
     touched.iter().filter(is_first).map(|(number, ..)| *number).collect()
 }
 
-/// All that must hold of an impact on ground, or of there being none.
+/// Checks an impact on ground, or that there is none.
 fn check(course: &Course, impact: Option<Impact3>, told: &str) {
     let Case3 { shape_a, pose_a, shape_b, pose_b } = course.case;
     let overlaps = Pair3::new(shape_a, pose_a, shape_b, pose_b).overlaps();
@@ -81,7 +81,8 @@ fn check(course: &Course, impact: Option<Impact3>, told: &str) {
     assert!((on_a - on_b).length() <= slack, "{told}: {impact:?}");
 }
 
-/// By fraction and by yes or no the same as the first of all triangles; what grazes may go either way.
+/// Asserts that fraction and presence agree with the first of all triangles, except where the body only grazes. Returns
+/// whether they agree without that exception.
 fn compare(course: &Course, ours: Option<Impact3>, slow: Option<Impact3>, told: &str) -> bool {
     let length = course.motions.iter().map(|motion| motion.displacement().length()).sum::<f64>();
     match (ours, slow) {
@@ -90,7 +91,7 @@ fn compare(course: &Course, ours: Option<Impact3>, slow: Option<Impact3>, told: 
             let slack = f64::from(ours.error.max(slow.error)) + 1e-9 * length;
             let closing = (ours.fraction - slow.fraction).abs() * length;
             ours.fraction == slow.fraction || closing <= slack * 4.0 || {
-                // Grazing: both are next to the ground.
+                // Grazing: at both times the body is next to the ground.
                 let (separation, error) = course.separation(ours.fraction.max(slow.fraction));
                 assert!(separation.abs() <= slack + error + course.rounding(), "{told}: {ours:?} {slow:?}");
                 false
@@ -118,7 +119,7 @@ fn what_moves_is_stopped_where_the_first_triangle_stops_it() {
             check(&course, impact, &told);
             let touched = slowly(&course);
             differ += usize::from(!compare(&course, impact, touched.first().map(|first| first.2), &told));
-            // The ground may be what moves.
+            // The same with the ground moving instead.
             let back = Pair3::new(&case.shape_b, &case.pose_b, &case.shape_a, &case.pose_a).cast(-moved);
             assert_eq!(back.is_some(), impact.is_some(), "{told}");
             let (Some(impact), Some(back)) = (impact, back) else {
@@ -151,7 +152,7 @@ fn what_turns_is_stopped_where_the_first_triangle_stops_it() {
             let mut random = Random::new((kind * 77 + round) as u128);
             let moved = moved.as_dvec3().clamp_length_max(6.0);
             let turning = Motion3::new(moved, random.quaternion()).unwrap();
-            // One in three has ground that turns too.
+            // In one of three cases the ground turns too.
             let of_ground = match round % 3 {
                 0 => Motion3::new(random.vector(), random.quaternion()).unwrap(),
                 1 => Motion3::shift(random.vector()).unwrap(),
@@ -217,7 +218,7 @@ fn one_sided_ground_stops_what_comes_from_its_front_and_nothing_else() {
             (-2.0, 4.0, true, false),
             (-2.0, 4000.0, true, false),
             (2.0, 4.0, false, false),
-            // Half way through: where the centre is decides.
+            // Half way through: the side of the centre decides.
             (0.1, -4.0, true, true),
             (-0.1, 4.0, true, false),
             (-0.1, -4.0, true, false),
@@ -248,7 +249,7 @@ fn a_compound_is_stopped_by_the_part_that_one_sided_ground_sees() {
     let two = Shape3::from(asunder_geometry::Compound3::new(parts).unwrap());
     let floor = one_sided_floor();
     let pair_at = |height: f64| Pose3::at([0.1, height, 0.2]).unwrap();
-    // One ball above, one below.
+    // One ball above the floor, one below.
     let pose = pair_at(0.0);
     let impact = Pair3::new(&two, &pose, &floor, &Pose3::IDENTITY).cast(Vec3::NEG_Y * 3.0).unwrap();
     assert_eq!(impact.part_a, 0);
@@ -258,14 +259,14 @@ fn a_compound_is_stopped_by_the_part_that_one_sided_ground_sees() {
     assert_eq!(Pair3::new(&two, &pose, &floor, &Pose3::IDENTITY).cast(Vec3::Y * 3.0), None);
 }
 
-/// The triangle's normal at the impact, on the body's side, against what is told.
+/// The sine of the angle between the reported normal, turned to the ground's side, and the triangle's.
 fn off_plane(impact: &Impact3, up: Vec3) -> f32 {
     (-impact.normal).cross(up).length()
 }
 
 #[test]
 fn inner_edges_give_no_normals_of_their_own() {
-    // A plane of 2 x N thin triangles, turned: a body glides into it at every angle, next to level too.
+    // A plane of 2 x N thin triangles, rotated: a body glides into it at any angle, almost parallel too.
     let mut counted = 0;
     for seed in 0..2400 {
         let mut random = Random::new(30_000 + seed);
@@ -278,7 +279,7 @@ fn inner_edges_give_no_normals_of_their_own() {
         let spot =
             Vec3::new(random.between(-1.0, 1.0) as f32, 0.0, random.between(-60.0, 60.0) as f32 * thin);
         let spin = random.quaternion();
-        // How far it reaches down, from its position.
+        // How far the body reaches down from its position.
         let standing = Pose3::new(DVec3::ZERO, spin).unwrap();
         let lowest = body.support(standing.turn_back(-up)).map(|low| standing.transform(low).dot(-up));
         let Some(lowest) = lowest else { continue };
@@ -289,7 +290,7 @@ fn inner_edges_give_no_normals_of_their_own() {
         let slope = random.pick(&[0.0, 1e-9, 1e-6, 1e-3, 0.1]);
         let moved = ((level - up * slope) * random.pick(&[0.01, 0.3, 1.0])).as_vec3();
         let Some(impact) = Pair3::new(&body, &pose, &ground, &at).cast(moved) else { continue };
-        // Off the rim there are edges that count.
+        // On the rim, edges may give normals.
         let on = at.transform_back(at.position() + impact.anchor_b.as_dvec3());
         if on.x.abs() > 1.99 || on.z.abs() > 79.9 * f64::from(thin) {
             continue;
@@ -306,14 +307,14 @@ fn inner_edges_give_no_normals_of_their_own() {
 
 #[test]
 fn edges_that_stand_out_keep_theirs() {
-    // A roof, seen from above, with a ridge along z; and the valley that it is from below.
+    // A roof with a ridge along z, seen from above; from below it is a valley.
     let roof = mesh(sheet([2, 4], [1.0, 1.0], |x, _| 1.0 - x.abs(), |_, _| false));
     let ball = Shape3::from(Sphere::new(0.5).unwrap());
     let cast = |from: DVec3, way: Vec3| {
         let pose = Pose3::at(from).unwrap();
         Pair3::new(&ball, &pose, &roof, &Pose3::IDENTITY).cast(way).unwrap()
     };
-    // Onto the ridge from straight above, and a little beside it.
+    // Onto the ridge from straight above, and slightly beside it.
     for x in [0.0, 0.1, -0.2, 0.3] {
         let impact = cast(DVec3::new(x, 3.0, 0.25), Vec3::NEG_Y * 4.0);
         let expected = DVec3::new(x, (0.25 - x * x).sqrt(), 0.0) * 2.0;
@@ -323,7 +324,7 @@ fn edges_that_stand_out_keep_theirs() {
     let impact = cast(DVec3::new(0.9, 3.0, 0.25), Vec3::NEG_Y * 4.0);
     let side = Vec3::new(1.0, 1.0, 0.0).normalize();
     assert!((-impact.normal).dot(side) > 1.0 - 1e-6, "{impact:?}");
-    // From below, it touches both sides at once: one of their normals, not the edge's.
+    // From below, it touches both sides at once: the normal is one of theirs, not the edge's.
     let impact = cast(DVec3::new(0.0, -3.0, 0.25), Vec3::Y * 4.0);
     let along = (-impact.normal).dot(Vec3::new(1.0, -1.0, 0.0).normalize());
     let other = (-impact.normal).dot(Vec3::new(-1.0, -1.0, 0.0).normalize());
@@ -379,7 +380,7 @@ fn ground_that_moves_meets_ground() {
             check(&course, impact, &format!("{seed}"));
         }
         if let Some(impact) = impact.filter(|impact| !impact.overlapping) {
-            // The two triangles that are named are those that meet.
+            // The two triangles that are named are the ones that meet.
             let [one, other] = [(&case.shape_a, impact.part_a), (&case.shape_b, impact.part_b)]
                 .map(|(ground, number)| Ground::of(ground).unwrap().triangle(number).unwrap().into());
             let two = Case3 { shape_a: one, pose_a: case.pose_a, shape_b: other, pose_b: case.pose_b };

@@ -1,4 +1,4 @@
-//! Whether anything is in the way is asked of the front of ground of one side, as contacts tell of it.
+//! `overlaps_front` and `is_free` see only the front of one-sided ground, as contacts do.
 
 use super::{beside, level};
 use asunder::glam::DVec2;

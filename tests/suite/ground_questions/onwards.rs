@@ -1,4 +1,4 @@
-//! What bodies run into next that touch ground already: walls, ramps and steps, and not the seams of their floor.
+//! What bodies that already touch ground run into next: walls, ramps and steps, and not the seams of their floor.
 
 use super::{mesh, sheet};
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
@@ -8,10 +8,10 @@ use asunder::{
 };
 use asunder_tests::cases::Random;
 
-/// Half the length of the floor, where the wall stands.
+/// Half the length of the floor: the wall's x.
 const WALL: f64 = 6.0;
 
-/// A floor cut into triangles, and a wall at its end: of one mesh.
+/// A floor cut into triangles, and a wall at its end, in one mesh.
 fn yard(random: &mut Random) -> Shape3 {
     let cuts = 1 + random.below(20) as u32;
     let step = 2.0 * WALL as f32 / cuts as f32;
@@ -22,7 +22,7 @@ fn yard(random: &mut Random) -> Shape3 {
     mesh((vertices, triangles))
 }
 
-/// Bodies about their own position, and how far they reach down and sideways.
+/// Bodies, with how far they reach down and sideways from their position.
 fn bodies() -> Vec<(Shape3, f64, f64)> {
     let balls = [Pose3::at([0.3, 0.0, 0.0]), Pose3::at([-0.3, 0.0, 0.0])]
         .map(|pose| (pose.unwrap(), Shape3::from(Sphere::new(0.25).unwrap())));
@@ -49,7 +49,8 @@ fn what_touches_its_floor_runs_over_its_seams_and_into_its_wall() {
             (Pose3::at(start).unwrap(), Pose3::new(random.vector() * 3.0, random.quaternion()).unwrap());
         let posed = Pose3::new(at.transform(start), at.rotation()).unwrap();
         let motion = |way: DVec3| Motion3::shift(way).unwrap();
-        // As it lies, to 1e-6; and turned with all its ground, where touching is a matter of rounding.
+        // Unrotated, where positions are good to 1e-6; and rotated with all its ground, where touching is a matter of
+        // rounding.
         for (place, ground, motion) in
             [(pose, Pose3::IDENTITY, motion(way)), (posed, at, motion(at.turn(way)))]
         {
@@ -80,7 +81,7 @@ fn what_touches_its_floor_runs_over_its_seams_and_into_its_wall() {
 
 #[test]
 fn no_body_that_touches_rough_ground_comes_through_it() {
-    // Bends of up to 45 degrees; the ball is pressed in by less than its radius, and goes to where it is stopped.
+    // Bends of up to 45 degrees; the ball is pressed in by less than its radius, and moves until it is stopped.
     let (mut stopped, mut free) = (0, 0);
     for seed in 0..8_000 {
         let mut random = Random::new(seed);
@@ -95,7 +96,7 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
             0 => mesh(sheet([12, 12], [step, step], height, |_, _| false)),
             _ => HeightField::new(13, 13, heights.clone(), Vec2::splat(step)).unwrap().into(),
         };
-        // A field begins at its corner.
+        // A field's origin is its corner.
         let corner = if seed % 2 == 0 { 0.0 } else { -6.0 * f64::from(step) };
         let lies = Pose3::at([corner, 0.0, corner]).unwrap();
         let radius = random.between(0.05, 0.6);
@@ -114,8 +115,8 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
         if let Some(impact) = &told {
             assert!(impact.normal.as_dvec3().dot(way) > 0.0 && !impact.overlapping, "{seed}: {impact:?}");
             let there = Pose3::at(start + way * fraction).unwrap();
-            // It may be in what it touched; what it met is as near as is said. At once, that is some triangle of a
-            // plane.
+            // It may be inside what it already touched, but what it hits is as near as reported. At fraction 0, that is
+            // some triangle of a plane.
             let triangle = Ground::of(&ground).unwrap().triangle(impact.part_b);
             let triangle = Shape3::Triangle(triangle.unwrap());
             let met = Pair3::new(&ball, &there, &triangle, &lies).distance();
@@ -124,8 +125,7 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
                 "{seed}: {met:?} {impact:?}"
             );
         }
-        // What it goes into the slope that it touches is that contact's matter, and comes on top of what it is pressed
-        // in.
+        // How far it goes into the slope that it touches is left to that contact, and adds to how far it is pressed in.
         let into = |manifold: Manifold3| manifold.normal.as_dvec3().dot(way).max(0.0) * fraction;
         let sunk = pressed + radius / 32.0 + pair.manifolds(0.0).into_iter().map(into).fold(0.0, f64::max);
         if sunk < 0.9 * radius {
@@ -141,7 +141,7 @@ fn no_body_that_touches_rough_ground_comes_through_it() {
 
 #[test]
 fn a_bullet_that_rolls_in_a_yard_of_one_mesh_stays_there() {
-    // Four walls and a floor in one mesh; 40 m/s, so that every third frame would lead outside.
+    // Four walls and a floor in one mesh; at 40 m/s every third frame would lead outside.
     let (half, up) = (5.0_f32, 2.0_f32);
     let (mut vertices, mut triangles) = sheet([9, 9], [10.0 / 9.0; 2], |_, _| 0.0, |_, _| false);
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
@@ -171,7 +171,7 @@ fn a_bullet_that_rolls_in_a_yard_of_one_mesh_stays_there() {
         }
         let mut place = start.position() + motion.displacement() * fraction;
         place.y = 0.2495;
-        // A hair off the wall that it bounced from, so that it does not touch that when it sets out.
+        // A hair off the wall that it bounced from, so that it does not touch the wall when it starts.
         let inside = 5.0 - 0.25 - 1e-4;
         assert!(place.abs().max_element() < 5.0 - 0.25 + 1e-4, "{frame}: outside at {place}");
         place = DVec3::new(place.x.clamp(-inside, inside), place.y, place.z.clamp(-inside, inside));
@@ -200,20 +200,20 @@ fn steps_down_and_ramps_are_met_and_what_was_touched_is_not() {
     let impact = next(&ledge, [-0.5, 0.5, 0.0], [4.0, -4.0, 0.0]).unwrap();
     assert!((impact.fraction - 0.5).abs() < 1e-5 && impact.part_b == 1, "{impact:?}");
     assert!((impact.normal - Vec3::NEG_Y).length() < 1e-5, "{impact:?}");
-    // Over a ditch, down into the side of its other bank, which is as high as the near one.
+    // Across a ditch, down into the side of the other bank, which is as high as the near one.
     let banks = Compound3::new([-6.0, 6.0].map(|x| (at([x, -2.0, 0.0]), slab([5.0, 2.0, 5.0]))));
     let impact = next(&Shape3::from(banks.unwrap()), [-1.0, 0.5, 0.0], [4.0, -4.0, 0.0]).unwrap();
     assert!(
         (impact.fraction - 0.375).abs() < 1e-5 && (impact.normal - Vec3::X).length() < 1e-5,
         "{impact:?}"
     );
-    // Through what is touched, however fast: that is a contact.
+    // Into what is already touched, however fast: that is a contact.
     assert_eq!(next(&ledge, [-2.0, 0.5, 0.0], [0.0, -0.4, 0.0]), None);
     // A ramp of 30 degrees in one mesh with its floor.
     let slope = |x: f32, _: f32| if x > 0.0 { x * 0.57735 } else { 0.0 };
     let ramp = mesh(sheet([16, 4], [1.0, 1.0], slope, |_, _| false));
     let impact = next(&ramp, [-4.0, 0.4999, 0.1], [6.0, -0.01, 0.0]).unwrap();
-    // Where the centre is half a metre in front of the ramp's plane.
+    // Hit where the centre is half a metre in front of the ramp's plane.
     let (sine, cosine) = (0.5, 0.75_f64.sqrt());
     let expected = (4.0 * sine + 0.4999 * cosine - 0.5) / (6.0 * sine + 0.01 * cosine);
     assert!((impact.fraction - expected).abs() < 1e-5, "{impact:?} {expected}");
@@ -263,7 +263,7 @@ fn what_turns_or_is_thin_is_stopped_by_the_wall_beside_it() {
         assert!(pair.overlaps());
         pair.next_impact(&motion, &Motion3::STILL)
     };
-    // A rod on the floor, a millimetre from the wall, turns by half a turn: both ends are in the wall on the way, and
+    // A rod on the floor, a millimetre from the wall, makes half a turn: on the way both ends are in the wall, and
     // neither at the end.
     let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 0.1, 1.0)).unwrap());
     for turn in [Quat::from_xyzw(0.0, 1.0, 0.0, 0.0), Quat::from_xyzw(0.0, 0.99, 0.0, 0.01)] {
@@ -271,7 +271,7 @@ fn what_turns_or_is_thin_is_stopped_by_the_wall_beside_it() {
         let impact = next(&rod, Pose3::at([WALL - 0.101, 0.0999, 0.0]).unwrap(), motion).unwrap();
         assert!(impact.fraction < 0.01 && (impact.normal - Vec3::X).length() < 1e-5, "{impact:?}");
     }
-    // A needle that lies askew in its own axes is no thicker than it is.
+    // The thickness of a needle oblique to its own axes is its true one.
     let askew = Vec3::splat(1.0).normalize();
     let needle = Shape3::from(Capsule3::new(-askew, askew, 0.001).unwrap());
     let along_wall =
@@ -288,7 +288,7 @@ fn a_moved_shape_is_cast_on_from_the_floor_that_it_touches() {
         let (shape, down, ahead) = bodies().swap_remove(random.below(4));
         let mut world = World3::new();
         let yard = world.insert(Collider3::new(yard(&mut random)));
-        // Stands level with the yard's floor, and in the way; a door that is open stands before it, and one around the
+        // A post that stands on the yard's floor, in the way, and is disabled half of the time; and a sensor around the
         // start.
         let crate_at = random.between(2.0, 8.0);
         let post = Cuboid::from_half_extents(Vec3::new(0.5, 1.0, 9.0)).unwrap();
@@ -335,13 +335,13 @@ fn a_shape_is_cast_on_however_far() {
             assert!(hit.body == yard && off < 1e-3, "{far}: {hit:?}");
         }
     }
-    // From the one end of all that there is to the other: further than a motion leads.
+    // From one end of the world to the other: further than a motion may lead.
     let target = world.insert(Collider3::new(ball.clone()).at(Pose3::at([8e8, 0.0, 9e8]).unwrap()));
     let far_off = Pose3::at([-9e8, 0.0, 9e8]).unwrap();
     for far in [1.8e9, 4e9, 1e20] {
         let hit = world.cast_shape_onwards((&ball, &far_off), Vec3::X * far, &Filter3::new()).unwrap();
         let off = (hit.fraction * f64::from(far) - (1.7e9 - 1.0)).abs();
-        // f64 has 2e-7 m there, and the fraction as much of all the way.
+        // There f64 resolves 2e-7 m, and the fraction as much of the whole way.
         assert!(off <= f64::from(hit.error) + 1e-6 && hit.error < 1e-4, "{far}: {hit:?}, {off} m off");
         assert!(hit.body == target && hit.normal == Vec3::X, "{far}: {hit:?}");
         assert!((hit.point - DVec3::new(8e8 - 0.5, 0.0, 9e8)).length() < 1e-5, "{far}: {hit:?}");

@@ -16,7 +16,7 @@ fn measured(pair: &Pair3) -> Measured3 {
     }
 }
 
-/// A body of every kind near every kind of ground, each with its triangles.
+/// Calls `check` with a body of every kind near every kind of ground.
 fn for_cases(rounds: usize, mut check: impl FnMut(&mut Random, (&Shape3, &Pose3), (&Shape3, &Pose3), &str)) {
     for (kind, (name, make)) in KINDS3.iter().enumerate() {
         for round in 0..rounds {
@@ -51,7 +51,7 @@ fn yes_or_no_is_what_exact_arithmetic_says() {
     let (mut yes, mut no) = (0, 0);
     for seed in 0..400 {
         let mut random = Random::new(7000 + seed);
-        // Corners in eighths, so that many touch exactly.
+        // Corners in eighths, so that many pairs touch exactly.
         let eighths =
             |random: &mut Random| Vec3::from_array([0; 3].map(|_| random.below(17) as f32 / 8.0 - 1.0));
         let corners: Vec<Vec3> = (0..8).map(|_| eighths(&mut random)).collect();
@@ -78,7 +78,7 @@ fn yes_or_no_is_what_exact_arithmetic_says() {
     assert!(yes > 80 && no > 80, "{yes} {no}");
 }
 
-/// The least separation of all triangles and the least that any may truly be.
+/// The least separation over all triangles, and the least that it may truly be.
 fn slowly((body, pose): (&Shape3, &Pose3), (ground, at): (&Shape3, &Pose3)) -> (f64, f64) {
     let (mut least, mut lowest) = (f64::INFINITY, f64::INFINITY);
     for (_, triangle) in triangles(ground) {
@@ -120,7 +120,7 @@ fn the_separation_is_the_least_of_any_triangle() {
     assert!(bounds > 80, "{bounds}");
 }
 
-/// Shards, needles and turned ground among them, in numbers that nothing of ours has touched.
+/// Shards, needles and rotated ground among them, against numbers computed without any of the library's code.
 #[test]
 fn separations_and_distances_are_those_of_double_doubles() {
     let (mut apart, mut over) = (0, 0);
@@ -177,7 +177,7 @@ fn closest_points_lie_on_both_and_are_as_far_apart_as_told() {
         if !body.outer_radius().is_finite() {
             return;
         }
-        // The triangle that is named is as near as any, whichever body comes first.
+        // The reported triangle is as near as any, whichever body comes first.
         let turned = Pair3::new(ground, at, body, pose).distance().unwrap();
         let all = triangles(ground);
         for (part, error) in [(closest.part_b, closest.error), (turned.part_a, turned.error)] {
@@ -188,7 +188,7 @@ fn closest_points_lie_on_both_and_are_as_far_apart_as_told() {
         }
         let [on_a, on_b] =
             [pose.position() + closest.anchor_a.as_dvec3(), at.position() + closest.anchor_b.as_dvec3()];
-        // Anchors are f32, relative to each body's own position.
+        // Anchors are f32, relative to each body's position.
         let size = f64::from(body.outer_radius()) + 8.0 + f64::from(closest.anchor_b.length());
         let slack = f64::from(closest.error) + 1e-6 * size;
         let between = on_b - on_a;

@@ -1,4 +1,4 @@
-//! parry3d's word on its own meshes: overlaps, distances and rays, outside a band.
+//! Against parry3d on its own meshes: overlaps, distances and rays, outside a band around touching.
 
 use super::{beside, level};
 use crate::shapes_peer::{pose_of, twin, vector};
@@ -10,7 +10,7 @@ use asunder_tests::shapes::{Clay, KINDS3};
 use parry3d::query::{Ray, RayCast, distance, intersection_test};
 use parry3d::shape::TriMesh;
 
-/// Share of the body's size, and of a metre of ground, within which parry's answers are not held against ours.
+/// Share of the body's size, and of a metre of ground, within which parry's answers are not compared with ours.
 const BAND: f64 = 1e-3;
 
 fn mesh_of(ground: &Shape3) -> TriMesh {
@@ -23,7 +23,7 @@ fn parry_says_the_same_of_bodies_on_ground() {
     let (mut compared, mut refuted, mut yes) = (0, 0, 0);
     for seed in 0..1500 {
         let mut random = Random::new(seed as u128);
-        // Bumps and shells, near the origin: shards and far places are no match for f32.
+        // Bumps and shells, near the origin: parry's f32 cannot cope with shards and far places.
         let (ground, at) = level(&mut random, [0, 2][seed % 2]);
         let at = Pose3::new(Vec3::ZERO, at.rotation()).unwrap();
         let kind = [0, 1, 2, 4][random.below(4)];
@@ -81,6 +81,6 @@ fn parry_says_the_same_of_rays() {
         };
         refuted += usize::from(!agrees);
     }
-    // Rays that graze a rim, or slip through parry's edges.
+    // Rays that graze a rim, or slip through an edge in parry.
     assert!(refuted * 100 < compared, "{refuted} of {compared} differ");
 }

@@ -6,7 +6,7 @@ use asunder_geometry::{Ground, Pose3, Ray3, Shape3, TriMesh};
 use asunder_narrow::{RayHit3, cast_ray3};
 use asunder_tests::cases::Random;
 
-/// The nearest of all triangles; of equals, the lowest number.
+/// The nearest hit over all triangles; of equal ones, the lowest number.
 fn slowly(ground: &Shape3, at: &Pose3, ray: &Ray3, limit: f64) -> Option<RayHit3> {
     let is_one_sided = Ground::of(ground).is_some_and(Ground::is_one_sided);
     let mut first: Option<RayHit3> = None;
@@ -32,7 +32,7 @@ fn one_sided(ground: &Shape3) -> Shape3 {
     }
 }
 
-/// What rays met, and how often the triangles one by one told other bits.
+/// Counts of hits and misses, and of hits that differ in some bit from those of the triangles one by one.
 #[derive(Default)]
 struct Tally {
     hits: usize,
@@ -41,8 +41,8 @@ struct Tally {
 }
 
 impl Tally {
-    /// Asks ground, and all of its triangles one by one: the same bits, since by whatever way a triangle was found, it
-    /// answers for itself; but for ties, up to so many errors.
+    /// Casts against ground, and against all of its triangles one by one. Both give the same bits, since the triangle
+    /// that is hit computes its answer alone; except for ties, within this many errors.
     fn check(&mut self, (ground, at): (&Shape3, &Pose3), ray: &Ray3, limit: f64, errors: f64) {
         for ground in [ground, &one_sided(ground)] {
             let (found, slow) = (cast_ray3(ground, at, ray, limit), slowly(ground, at, ray, limit));
@@ -102,19 +102,19 @@ fn thin_triangles_at_any_slant_place_and_scale_are_met_as_one_by_one() {
         let at = Pose3::new(random.direction() * far, random.quaternion()).unwrap();
         let within = Ground::of(&ground).unwrap();
         let [a, b, c] = within.corners(random.below(288) as u32).map(|corner| corner.as_dvec3());
-        // A vertex, an edge, a place within, far beside; from a slant down to a millionth.
+        // Aimed at a vertex, an edge, a point inside, or far beside; at angles down to a millionth.
         let share = random.between(0.0, 1.0);
         let aim =
             random.pick(&[a, a + (b - a) * 0.5, b + (c - b) * share, (a + b + c) / 3.0, a + (b - c) * 30.0]);
         let along = random.pick(&[(b - a).normalize(), (c - b).normalize(), DVec3::new(0.6, 0.0, 0.8)]);
         let rise = random.pick(&[3.0, 0.1, 1e-3, 1e-6]);
         let way = at.turn((along + DVec3::Y * rise) * -random.pick(&[1e-3, 1.0, 1e3]));
-        // The direction is rounded before the origin is laid back along it, so that it is aimed to the last bit.
+        // The direction is rounded before the origin is moved back along it, so that the aim is exact to the last bit.
         let direction = way.as_vec3();
         let back = direction.as_dvec3().normalize() * f64::from(scale) * random.between(0.0, 20.0);
         let ray = Ray3::new(at.transform(aim) - back, direction).unwrap();
-        // Within rounding of both edges of a sharp corner is further beyond it, by as much as it is sharp: out of the
-        // triangle's box, and one by one nobody looks at that.
+        // At a sharp corner, a point within rounding of both edges may lie further beyond it the sharper it is: outside
+        // the triangle's AABB, which the loop over triangles does not test.
         tally.check((&ground, &at), &ray, f64::INFINITY, 4.0 / f64::from(thin));
     }
     let Tally { hits, misses, differ } = tally;
@@ -126,7 +126,7 @@ fn thin_triangles_at_any_slant_place_and_scale_are_met_as_one_by_one() {
 fn no_ray_slips_through_between_triangles() {
     for seed in 0..600 {
         let mut random = Random::new(50_000 + seed as u128);
-        // A closed shell, turned and far away, seen from inside: through its edges, its vertices and past them by
+        // A closed shell, rotated and far away, seen from inside: rays through its edges, its vertices and past them by
         // a rounding.
         let (ground, at) = level(&mut random, 3 * seed + 2);
         let mesh = Ground::of(&ground).unwrap();
@@ -141,7 +141,7 @@ fn no_ray_slips_through_between_triangles() {
         let ray = Ray3::new(inside, (aim - inside).as_vec3()).unwrap();
         let hit = cast_ray3(&ground, &at, &ray, f64::INFINITY);
         let hit = hit.unwrap_or_else(|| panic!("{seed}: it slipped through"));
-        // Within what the direction's f32, the place's f64 and the shell's bend leave.
+        // Within what is left by the f32 direction, the f64 position and the shell's distortion.
         assert!(hit.distance > 0.2 && hit.distance < 5.0, "{seed}: {hit:?}");
     }
 }
@@ -155,7 +155,7 @@ fn a_ray_down_a_grid_of_any_size_lands_on_every_edge_and_vertex() {
     let down = at.turn(DVec3::NEG_Y);
     for (i, &one) in inner.vertices().iter().enumerate() {
         for &other in &inner.vertices()[i..] {
-            // Points of edges and beyond, all within the grid.
+            // Points on edges and their extensions, all within the grid.
             for share in [0.0, 0.5, 0.3] {
                 let place = at.transform(one.as_dvec3() * (1.0 - share) + other.as_dvec3() * share);
                 let ray = Ray3::new(place - down * 5.0, down.as_vec3()).unwrap();
@@ -194,7 +194,7 @@ fn one_sided_ground_is_seen_from_its_front() {
     assert_eq!(cast_ray3(&one, &pose, &far, 9.0).unwrap().part, 1);
     let middle = Ray3::new([2.0, 2.0, 2.0], Vec3::NEG_Y).unwrap();
     assert_eq!(cast_ray3(&one, &pose, &middle, 9.0).unwrap().part, 0);
-    // From a point of the surface itself, and along it.
+    // From a point on the surface itself, and along it.
     let on = Ray3::new([1.0, 0.0, 1.0], Vec3::NEG_Y).unwrap();
     let hit = cast_ray3(&one, &pose, &on, 9.0).unwrap();
     assert_eq!((hit.distance, hit.inside), (0.0, true));

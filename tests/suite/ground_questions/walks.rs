@@ -12,7 +12,7 @@ fn ball() -> Shape3 {
 
 const SHAPES: [fn() -> Shape3; 3] = [capsule, crate_of_a_person, ball];
 
-/// Level ways of unit length.
+/// Horizontal directions of unit length.
 const WAYS: [DVec3; 4] =
     [DVec3::X, DVec3::new(0.96, 0.0, 0.28), DVec3::new(-0.352, 0.0, 0.936), DVec3::new(-0.6, 0.0, -0.8)];
 
@@ -22,7 +22,7 @@ fn world_of(soup: Soup) -> World3 {
     world
 }
 
-/// Both soups in one.
+/// Both soups joined.
 fn joined((mut vertices, mut triangles): Soup, (more, others): Soup) -> Soup {
     let first = vertices.len() as u32;
     vertices.extend(more);
@@ -56,7 +56,7 @@ fn no_inner_edge_of_a_floor_trips_who_walks_on_it() {
 
 #[test]
 fn a_bumpy_field_is_walked_over_without_a_stop() {
-    // Waves of parabolas, of up to 20 degrees.
+    // Parabolic waves, with slopes of up to 20 degrees.
     let wave = |x: f32| {
         let x = x - (x / 2.0).round() * 2.0;
         4.0 * x * (1.0 - x.abs())
@@ -84,7 +84,7 @@ fn a_bumpy_field_is_walked_over_without_a_stop() {
     }
 }
 
-/// Stairs along x from the origin: as many steps of this depth and height, and floors before and behind.
+/// Stairs along x from the origin: `count` steps of this depth and height, with floors before and behind.
 fn stairs(count: u32, depth: f32, height: f32) -> Soup {
     let (mut profile, mut x) = (vec![Vec3::new(-6.0, 0.0, 0.0), Vec3::ZERO], 0.0);
     for i in 1..=count {
@@ -117,7 +117,7 @@ fn stairs_are_climbed_and_walked_down() {
         }
         assert!(hero.feet().y.abs() < 0.01 && hero.feet().x < -1.0, "{}", hero.feet());
     }
-    // Steps that are too high are a wall.
+    // Steps that are too high act as a wall.
     let world = world_of(stairs(2, 0.5, 0.5));
     let mut hero = Hero::new(&world, capsule(), [-2.0, 0.0, 0.1]);
     hero.walk.step = 0.3;
@@ -147,7 +147,7 @@ fn slopes_of_triangles_are_climbed_up_to_the_limit() {
     }
 }
 
-/// A room without a roof, of squares of half a metre, walls and floor in one mesh.
+/// A room without a roof, of squares of half a metre; walls and floor in one mesh.
 fn room() -> Soup {
     let wall = |place: fn(f32, f32) -> Vec3| {
         let (vertices, triangles) = sheet([12, 6], [0.5, 0.5], |_, _| 0.0, |_, _| false);
@@ -171,7 +171,7 @@ fn walls_of_a_room_are_slid_along_and_never_left() {
         world.insert(Collider3::new(mesh(room())).at(turned).fixed());
         for shape in SHAPES {
             let mut hero = Hero::new(&world, shape(), [0.0, 0.0, 0.0]);
-            // Into a wall at an angle: along it, at the speed that is left.
+            // Into a wall at an angle: slides along it, at the speed that is left.
             let local = |v: DVec3| turned.turn(v).as_vec3();
             for _ in 0..30 {
                 hero.step(local(DVec3::new(0.1, -0.05, 0.0)));
@@ -186,7 +186,7 @@ fn walls_of_a_room_are_slid_along_and_never_left() {
             }
             let after = turned.transform_back(hero.feet());
             assert!((after.z - before.z - 1.2).abs() < 0.02 && after.y.abs() < 0.01, "{before} {after}");
-            // Anywhere, for long.
+            // In random directions, for a long time.
             let mut random = asunder_tests::cases::Random::new(5);
             let mut way = DVec3::X;
             for frame in 0..600 {

@@ -1,4 +1,4 @@
-//! Worlds with ground in them: every question sees it.
+//! Worlds with ground in them: every query sees it.
 
 use super::{beside, level, mesh, sheet, triangles};
 use asunder::glam::{DVec3, Quat, Vec3};
@@ -9,13 +9,13 @@ use asunder::{
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{Clay, KINDS3};
 
-/// Some ground, a few boxes among it.
+/// Some ground with a few boxes among it.
 fn world(seed: u128) -> (World3, Random) {
     let mut random = Random::new(seed);
     let mut world = World3::new();
     for round in 1..5 {
         let (ground, at) = level(&mut random, round);
-        // All near each other, also what a level puts far away.
+        // All near each other, including what `level` places far away.
         let at = Pose3::new(random.vector() * 3.0, at.rotation()).unwrap();
         world.insert(Collider3::new(ground).at(at).fixed());
         let small = Cuboid::from_half_extents(Vec3::splat(0.3)).unwrap();
@@ -151,7 +151,7 @@ fn two_bodies_are_asked_when_they_touch() {
 
 #[test]
 fn no_bullet_passes_a_wall_of_one_layer() {
-    // 500 m/s, sixty frames a second: eight metres a frame, through a wall without thickness.
+    // 500 m/s at sixty frames a second: eight metres a frame, through a wall without thickness.
     let (vertices, numbers) = sheet([10, 10], [0.6, 0.6], |_, _| 0.0, |_, _| false);
     let two_sided = TriMesh::new(vertices, numbers).unwrap();
     let shapes: [Shape3; 3] = [
@@ -167,7 +167,7 @@ fn no_bullet_passes_a_wall_of_one_layer() {
         let turned = Pose3::new(random.vector() * 50.0, random.quaternion()).unwrap();
         let wall = world.insert(Collider3::new(wall).at(turned).fixed());
         let front = turned.turn(DVec3::Y);
-        // At the inner edges and vertices, too.
+        // Aimed at the inner edges and vertices, too.
         let aim = match seed % 3 {
             0 => DVec3::new(random.below(4) as f64 * 0.6, 0.0, random.below(4) as f64 * 0.6),
             _ => DVec3::new(random.between(-2.8, 2.8), 0.0, random.between(-2.8, 2.8)),
@@ -192,7 +192,7 @@ fn no_bullet_passes_a_wall_of_one_layer() {
         assert!((-1e-3..0.1).contains(&height), "{seed}: {height} {impact:?}");
         assert!(impact.normal.as_dvec3().dot(front) < -1.0 + 1e-6, "{seed}: {impact:?}");
         stopped += 1;
-        // From behind, a wall of one side stops nobody.
+        // A one-sided wall stops nobody from behind.
         let mut back = World3::new();
         let wall = world.get(wall).unwrap().clone();
         let is_one_sided = seed % 2 == 1;
@@ -208,11 +208,11 @@ fn no_bullet_passes_a_wall_of_one_layer() {
 
 #[test]
 fn ground_far_away_is_asked_as_at_home() {
-    // A metre of ground seen from nine hundred thousand kilometres of origin.
+    // A metre of ground nine hundred thousand kilometres from the origin.
     let ground = mesh(sheet([4, 4], [0.5, 0.5], |x, z| 0.2 * x * z, |_, _| false));
     let ball = Shape3::from(Sphere::new(0.25).unwrap());
     let home = Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.1, 0.2, 0.3, 0.9)).unwrap();
-    // What f64 holds there without rounding.
+    // A shift that f64 can add here without rounding.
     let shift = DVec3::new(-9e8, 5e8, 1e8);
     let away = Pose3::new(shift, home.rotation()).unwrap();
     for seed in 0..100 {

@@ -1,4 +1,4 @@
-//! What is crossed by rays and moved boxes, and what is nearest: against f64, with the errors that are promised.
+//! Boxes crossed by rays and moving boxes, and nearest boxes: against f64, with the promised errors.
 
 use super::{any_boxes, clusters, everything, flat, nasty_boxes, random_box3, two_of_three};
 use asunder_broad::{Cast, Found, Index, Queue};
@@ -11,19 +11,19 @@ use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-/// What is moved: its sides, its direction, and how far.
+/// A moving box: its sides, its direction, and how far.
 struct Moved {
     sides: Vec<(f64, f64)>,
     along: Vec<f32>,
     limit: f64,
 }
 
-/// How much a distance may fall short, as a part of itself: four roundings to f32 of 6e-8, and twice 2.4e-7 that
-/// are taken off.
+/// How much a distance may fall short, relative to itself: four roundings to f32 of 6e-8, and twice 2.4e-7 that are
+/// subtracted.
 const SHORT: f64 = 1e-6;
 
 impl Moved {
-    /// From where to where a box is met, in f64; all along an axis on which it is touched all the way.
+    /// The interval in which a box is hit, in f64; unbounded along an axis on which it is touched all the way.
     fn meets<B: Sides>(&self, other: &B) -> Option<(f64, f64)> {
         let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
         for ((&(low, high), &along), (least, most)) in self.sides.iter().zip(&self.along).zip(other.sides()) {
@@ -42,17 +42,18 @@ impl Moved {
         Some((enter, leave))
     }
 
-    /// Found are all boxes that are met and none that is missed by more than rounding, each once, in order.
+    /// Asserts that all boxes that are hit are found, and none that is missed by more than rounding, each once, in
+    /// order.
     fn check<B: Bounds + Sides>(&self, boxes: &[B], keep: fn(u32) -> bool, found: &[Found]) {
         assert!(found.windows(2).all(|pair| pair[0] < pair[1]), "by distance, then by number: {found:?}");
         let mut by_number = vec![None; boxes.len()];
         for one in found {
             assert!(by_number[one.number as usize].replace(one.distance).is_none(), "{} twice", one.number);
         }
-        // In a direction of length 1, distances end where those of f32 do.
+        // For a direction of length 1, distances end at the largest f32.
         let longest = self.along.iter().fold(0.0_f64, |most, &part| most.max(f64::from(part).abs()));
         let end = if longest > 0.0 { self.limit.min(1e38 / longest) } else { self.limit };
-        // Numbers that f32 has no more digits for.
+        // Numbers too small for f32.
         let tiny = if longest > 0.0 { 1e-44 / longest } else { 0.0 };
         for ((number, one), told) in (0_u32..).zip(boxes).zip(by_number) {
             let truth = self.meets(one).filter(|_| one.is_valid() && keep(number));
@@ -71,7 +72,7 @@ impl Moved {
     }
 }
 
-/// A cast against the loop, in all its forms; returns how many boxes it crosses.
+/// Compares a cast with the loop, in all its forms; returns how many boxes it crosses.
 fn check_cast<B: Bounds + Sides>(
     index: &Index<B>,
     boxes: &[B],
@@ -111,12 +112,12 @@ fn check_cast<B: Bounds + Sides>(
 
 fn direction(random: &mut Random) -> Vec3 {
     let along = Vec3::from_array([0; 3].map(|_| random.between(-1.0, 1.0) as f32));
-    // Some along an axis or a plane, some short, some long.
+    // Some along an axis or in a coordinate plane, some short, some long.
     let parts = Vec3::from_array([0; 3].map(|_| [1.0, 1.0, 1.0, 0.0, -0.0][random.below(5)]));
     along * parts * [1.0, 1.0, 1e-30, 1e20, 1e-42][random.below(5)]
 }
 
-/// Rays and moved boxes from the places of the boxes, and half as far again around.
+/// Rays and moving boxes that start among the boxes, and up to half as far again around them.
 fn check_casts(random: &mut Random, boxes: &[Aabb3], starts: &[Aabb3]) -> usize {
     let boxes2: Vec<Aabb2> = boxes.iter().map(flat).collect();
     let (mut index, mut index2) = (Index::new(), Index::new());
@@ -203,7 +204,7 @@ fn a_ray_that_touches_is_not_lost() {
     let mut index = Index::new();
     let mut hits = Vec::new();
     for _ in 0..3000 {
-        // Towards a corner of a box, or a point on an edge, from an origin that f32 may not have.
+        // Towards a corner of a box, or a point on an edge, from an origin that f32 may not represent.
         let one = random_box3(&mut random, Vec3::splat(3.0), 0.5);
         let along = Vec3::from_array([0; 3].map(|_| random.between(-2.0, 2.0) as f32));
         let corner = DVec3::new(f64::from(one.min.x), f64::from(one.max.y), f64::from(one.min.z));
@@ -212,7 +213,7 @@ fn a_ray_that_touches_is_not_lost() {
         let ray = Ray3::new(corner - along.as_dvec3() * ahead, along).unwrap();
         index.crossed(&ray.into(), ahead * (1.0 + 1e-14), &mut hits);
         assert_eq!(hits.len(), 1, "{one:?} from {ray:?}");
-        // One side in a plane of the ray, exactly.
+        // One side of the box exactly in a plane with the ray.
         let level = Ray3::new([-9.0, f64::from(one.max.y), f64::from(one.min.z)], Vec3::X).unwrap();
         index.crossed(&level.into(), 20.0, &mut hits);
         assert_eq!(hits.len(), 1, "{one:?} from {level:?}");
@@ -223,8 +224,7 @@ fn a_ray_that_touches_is_not_lost() {
     }
 }
 
-/// In small whole numbers, where nothing is rounded but quotients: a line that touches a corner, entering and
-/// leaving at once.
+/// In small integers, where only quotients are rounded: a line that touches a corner, entering and leaving at once.
 #[test]
 fn a_line_through_a_corner_is_not_lost() {
     let mut random = Random::new(824);
@@ -287,7 +287,7 @@ fn gap<B: Sides>(one: &B, other: &B) -> f64 {
     one.sides().iter().zip(&other.sides()).map(on).sum::<f64>().sqrt()
 }
 
-/// All boxes in order of distance from one, and any number of the first of them; returns how many.
+/// Checks all boxes in order of distance from one, and any number of the first of them; returns how many.
 fn check_nearest<B: Bounds + Sides>(
     index: &Index<B>,
     boxes: &[B],
@@ -325,7 +325,7 @@ fn check_nearest<B: Bounds + Sides>(
         "{} within {limit}",
         some.len()
     );
-    // What is as far as the third ends it.
+    // The first box as far away as the third ends it.
     if let Some(third) = found.get(2) {
         some.clear();
         index.nearest_in_order(to, f64::INFINITY, &mut queue, |one| {

@@ -1,4 +1,4 @@
-//! Units of length and the place of the origin, for hard pairs of every kind: in powers of two every bit follows.
+//! Units of length and the origin, for hard pairs of every kind: with powers of two every bit follows.
 
 mod bodies;
 
@@ -30,7 +30,8 @@ fn cases2(each: usize, seed: u64) -> Vec<Case2> {
     hard.chain(random).collect()
 }
 
-/// The same pair in other units, if every number of it keeps all its bits there and all shapes their vertices in order.
+/// The same pair in other units, if every number of it keeps all its bits and all shapes keep the order of their
+/// vertices.
 fn in_units3(case: &Case3, k: i32) -> Option<Case3> {
     Some(Case3 {
         shape_a: case.shape_a.in_units(k)?,
@@ -49,7 +50,7 @@ fn in_units2(case: &Case2, k: i32) -> Option<Case2> {
     })
 }
 
-/// `scaled` makes the very shapes that are made here number by number.
+/// `scaled` gives the same shapes as scaling number by number here.
 #[test]
 fn scaled_shapes_are_those_in_other_units() {
     let mut count = 0;
@@ -77,7 +78,7 @@ fn scaled_shapes_are_those_in_other_units() {
     assert!(count > 2000, "{count}");
 }
 
-/// Everything that a pair answers, as numbers.
+/// Everything that is reported for a pair, as numbers.
 #[derive(Clone, Debug, PartialEq)]
 struct Said {
     verdict: Verdict,
@@ -93,8 +94,7 @@ impl Said {
         self.names.extend(coordinates.iter().map(|c| u64::from(c.to_bits())));
     }
 
-    /// Whether the other one is this one in units of 2^-k metres. Lengths below the least normal f32 have no bits
-    /// to keep.
+    /// Whether `other` is this in units of 2^-k metres. Lengths below the least normal f32 have no bits to keep.
     fn is_in_units(&self, other: &Self, k: i32) -> bool {
         let follows = |(&one, &other): (&f32, &f32)| {
             let expected = f64::from(one) * power_of_two(k);
@@ -176,7 +176,7 @@ fn units_of_length_for_hard_solids() {
     let (mut compared, mut widest) = (0, [0; 2]);
     let cases = cases3(40, 510);
     for case in &cases {
-        // As it is when built anew from its own vertices.
+        // As rebuilt from its own vertices.
         let Some(base) = in_units3(case, 0) else { continue };
         let reach = Reach::of3(&base);
         let margin = margin(&reach);
@@ -214,12 +214,12 @@ fn units_of_length_for_hard_pairs_in_the_plane() {
     assert!(compared > 2 * cases.len() && widest[0] <= -18 && widest[1] >= 18, "{compared}, {widest:?}");
 }
 
-/// To a multiple of a power of two.
+/// Rounded to a multiple of a power of two.
 fn on_grid(v: f64, grid: f64) -> f64 {
     (v / grid).round() * grid
 }
 
-/// Where both bodies go, and the grid of which every position is a multiple there: no bit of any is lost.
+/// Where both bodies are moved to, and a grid for positions such that no bit of any is lost there.
 const SHIFTS: [([f64; 3], f64); 3] = [
     ([1024.0, -512.0, 96.0], 1.0 / 1_099_511_627_776.0),
     ([1e6, 3e6, -2e6], 1.0 / 268_435_456.0),
@@ -231,7 +231,7 @@ fn where_the_origin_is_for_hard_solids() {
     for case in cases3(40, 512) {
         let margin = margin(&Reach::of3(&case));
         for (shift, grid) in SHIFTS {
-            // From close to the origin, whatever the case was built for; B stays where it is from A.
+            // From close to the origin, wherever the case was built; B keeps its place relative to A.
             let between = case.pose_b.position() - case.pose_a.position();
             let at = |place: DVec3| DVec3::from_array(place.to_array().map(|x| on_grid(x, grid)));
             let (a, b) = (at(between * -0.25), at(between * 0.75));

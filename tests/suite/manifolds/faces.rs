@@ -1,5 +1,5 @@
-//! What is kept of the patch that two faces share, against the exact patch: its corners by another method, and the best
-//! four of them by trying all.
+//! The points that are kept of the patch shared by two faces, against the exact patch: its corners by another method,
+//! and the best four of them by brute force.
 
 use super::{check_manifold, pair3};
 use asunder_geometry::tolerance::{EVEN_AREA, EVEN_DEPTH};
@@ -12,10 +12,10 @@ use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 /// Rounding of poses and anchors, which are f32, as a share of areas of about 1.
 const ROUNDING: f64 = 2e-6;
 
-/// Share of the best area that counts as all of it: the first of what is even is taken, up to three times.
+/// Share of the best area that must be reached: up to three times, the first of equally good choices is taken.
 const ALL: f64 = 1.0 - 3.0 * EVEN_AREA;
 
-/// A strictly convex outline of some corners, counter-clockwise: sorted angles on an ellipse.
+/// A strictly convex, counter-clockwise outline: sorted angles on an ellipse.
 fn outline(random: &mut Random, corners: usize, size: f64) -> Vec<Vec2> {
     let stretch = DVec2::new(size, size * random.between(0.3, 1.0));
     let step = core::f64::consts::TAU / corners as f64;
@@ -23,8 +23,8 @@ fn outline(random: &mut Random, corners: usize, size: f64) -> Vec<Vec2> {
     (0..corners).map(|i| (DVec2::from_angle(angle(i, random)) * stretch).as_vec2()).collect()
 }
 
-/// Corners of what two convex outlines share: corners of each that lie in the other, and where their edges cross. In no
-/// order.
+/// The corners of the intersection of two convex outlines: corners of each inside the other, and crossings of their
+/// edges. In no particular order.
 fn shared(p: &[DVec2], q: &[DVec2]) -> Vec<DVec2> {
     let edges = |outline: &[DVec2]| -> Vec<[DVec2; 2]> {
         (0..outline.len()).map(|i| [outline[i], outline[(i + 1) % outline.len()]]).collect()
@@ -59,7 +59,7 @@ fn area(corners: Vec<DVec2>) -> f64 {
     (0..corners.len()).map(|i| corners[i].perp_dot(corners[(i + 1) % corners.len()])).sum::<f64>() / 2.0
 }
 
-/// The greatest area of four corners, one of which is in `among`; all of it where there are no more than four.
+/// The greatest area of four corners, one of which is in `among`; with four corners or fewer, the whole area.
 fn best_four(corners: &[DVec2], among: impl Fn(DVec2) -> bool) -> f64 {
     if corners.len() <= 4 {
         return area(corners.to_vec());
@@ -80,7 +80,7 @@ fn best_four(corners: &[DVec2], among: impl Fn(DVec2) -> bool) -> f64 {
     best
 }
 
-/// Two prisms whose end faces look at each other, square to z: B sunk into A, or `sunk` below zero above it.
+/// Two prisms whose end faces face each other across z: B is sunk into A by `sunk`, or above it if that is negative.
 fn face_to_face(
     random: &mut Random,
     corners: [usize; 2],
@@ -95,14 +95,14 @@ fn face_to_face(
     let rotation = Quat::from_xyzw(tilt.x as f32, tilt.y as f32, turn.y as f32, turn.x as f32);
     let pose_b = Pose3::new(aside.extend(0.75 - sunk), rotation).unwrap();
     let of_a = outlines[0].iter().map(|v| v.as_dvec2()).collect();
-    // The rotation that was stored: its quaternion is normalised on the way.
+    // Uses the rotation as stored: its quaternion has been normalised.
     let seen = |v: &Vec2| (pose_b.basis().turn(v.as_dvec2().extend(-0.25)) + pose_b.position()).truncate();
     let of_b = outlines[1].iter().map(seen).collect();
     let [shape_a, shape_b] = shapes;
     (Case3 { shape_a, pose_a: Pose3::IDENTITY, shape_b, pose_b }, [of_a, of_b])
 }
 
-/// Places on A, seen from above.
+/// The points on A, projected along z.
 pub(super) fn places(manifold: &Manifold3) -> Vec<DVec2> {
     manifold.points.iter().map(|point| point.anchor_a.as_dvec3().truncate()).collect()
 }
@@ -133,9 +133,9 @@ fn four_points_keep_nineteen_parts_in_twenty_of_what_faces_share() {
     assert!(whole > 100 && reduced > 500, "patches of both kinds: {whole}, {reduced}");
 }
 
-/// Tilted, one corner is the deepest. It is kept, and the others make the most of it that there is. Symptom: a chip on
-/// the corner of a floor 140 km wide stood on four points that covered 63 % of what four can. Cause: areas were told
-/// apart in f32, of places as far from the floor's middle as its corner.
+/// Of a tilted body one corner is the deepest; it is kept, and the others span the largest area possible. Symptom: a
+/// chip on the corner of a floor 140 km wide stood on four points that covered 63 % of what four can. Cause: areas were
+/// compared in f32, from positions as far from the floor's centre as its corner.
 #[test]
 fn a_chip_on_the_corner_of_a_huge_floor_stands_on_as_much_from_either_side() {
     let floor = Cuboid::from_half_extents(Vec3::new(7e4, 0.5, 7e4)).unwrap();
@@ -169,7 +169,7 @@ fn over_the_corner_of_a_huge_floor_four_points_cover_as_much() {
         let rotation = Quat::from_xyzw(0.0, 0.0, turn.y as f32, turn.x as f32);
         let height = 0.5 + f64::from(half.z) - 1e-3 * size;
         let pose_b = Pose3::new((DVec2::splat(wide) + aside).extend(height), rotation).unwrap();
-        // As seen from the chip.
+        // In the chip's axes.
         let corner = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let seen = |[x, y]: [f64; 2]| {
             let at = DVec3::new(x * f64::from(half.x), y * f64::from(half.y), 0.0);
@@ -217,17 +217,17 @@ fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
             let center = case.pose_b.position() + towards * 0.25;
             center.z - (at - center.truncate()).dot(towards.truncate()) / towards.z
         };
-        // What trembling may change is as deep: 5e-5 here, where depths differ by up to 2e-3.
+        // Corners that may be exchanged count as equally deep: 5e-5 here, where depths differ by up to 2e-3.
         let even = EVEN_DEPTH * 2.0 * f64::from(case.shape_a.outer_radius().min(case.shape_b.outer_radius()));
         let least = exact.iter().map(|&corner| depth(corner)).fold(f64::INFINITY, f64::min) + even + 2e-6;
         let deepest: Vec<DVec2> = exact.iter().copied().filter(|&corner| depth(corner) <= least).collect();
         let with = |corner: &DVec2| best_four(&exact, |other| other == *corner);
         let best = deepest.iter().map(with).fold(f64::INFINITY, f64::min);
         let found = area(places(&manifold));
-        // Edges that cross at a small angle cross further on.
+        // The crossing of edges at a small angle is uncertain along them.
         let is_kept = |at: &DVec2| deepest.iter().any(|corner| (at - corner).length() < 2e-3);
         assert!(places(&manifold).iter().any(is_kept), "{deepest:?} of {manifold:?}: {case:?}");
-        // A normal that is tilted by up to 1.2e-3 moves what is sunk by 0.05 by up to 6e-5, along a rim of up to 5.
+        // A normal tilted by up to 1.2e-3 shifts what is sunk in by 0.05 by up to 6e-5, along an outline of up to 5.
         assert!(found >= best * ALL - 3e-4, "{found} of {best}: {case:?}");
         check_manifold(&asked, &asked.manifold(0.0).unwrap(), 0.0);
         judged += 1;
@@ -235,7 +235,7 @@ fn of_tilted_faces_the_deepest_corner_is_kept_with_the_best_three_others() {
     assert!(judged > 200, "only {judged}");
 }
 
-/// Features of the points with their separations, as the other order of the shapes names them.
+/// The feature ids of the points with their separations, in the order of the unswapped pair.
 fn named(manifold: &Manifold3, is_swapped: bool) -> Vec<(FeatureId, f32)> {
     let name = |point: &ContactPoint3| {
         let id = point.feature;
@@ -254,7 +254,7 @@ fn assert_alike(one: &[(FeatureId, f32)], other: &[(FeatureId, f32)], slack: f64
     }
 }
 
-/// Faces a little tilted, bodies that stick in each other anyhow: with margins and without.
+/// Slightly tilted faces, and bodies that penetrate in any way: with margins and without.
 fn any_case(random: &mut Random, round: usize) -> (Case3, f32) {
     let margin = [0.0, 0.02][round / 2 % 2];
     if !round.is_multiple_of(2) {
@@ -266,7 +266,7 @@ fn any_case(random: &mut Random, round: usize) -> (Case3, f32) {
     (face_to_face(random, corners, sunk, tilt).0, margin)
 }
 
-/// Called the other way round, the same points carry the same names, mirrored.
+/// With A and B swapped, the same points have the same feature ids, mirrored.
 #[test]
 fn the_manifold_of_b_and_a_mirrors_that_of_a_and_b() {
     let mut random = Random::new(322);
@@ -283,8 +283,8 @@ fn the_manifold_of_b_and_a_mirrors_that_of_a_and_b() {
     assert!(points[1..].iter().all(|&count| count > 50), "manifolds of every size: {points:?}");
 }
 
-/// Turned together, both have the same points, by the same names; what differs is the rounding of the quaternions,
-/// which are f32.
+/// Rotated together, the two have the same points with the same feature ids; only the rounding of the quaternions,
+/// which are f32, differs.
 #[test]
 fn a_turn_of_both_changes_no_name_of_a_point() {
     let mut random = Random::new(323);
@@ -303,7 +303,7 @@ fn a_turn_of_both_changes_no_name_of_a_point() {
         let other = Case3 { pose_a: turned(&case.pose_a), pose_b: turned(&case.pose_b), ..case.clone() };
         let other = pair3(&other).manifold(margin).unwrap();
         let (one_named, other_named) = (named(&one, false), named(&other, false));
-        // A point at the margin may be let in or not.
+        // A point exactly at the margin may or may not be included.
         let is_at_margin = |named: &(FeatureId, f32)| (named.1 - margin).abs() < 1e-5;
         if one_named.iter().chain(&other_named).any(is_at_margin) {
             continue;

@@ -1,4 +1,4 @@
-//! What stays from frame to frame, and points that are not there yet.
+//! What persists from frame to frame, and speculative points.
 
 use super::pair3;
 use asunder_geometry::tolerance::FACE_PREFERENCE;
@@ -11,7 +11,7 @@ fn cuboid(half: Vec3) -> Shape3 {
     Cuboid::from_half_extents(half).unwrap().into()
 }
 
-/// One frame: the manifold, and the hint for the next.
+/// One frame: returns the manifold, and the hint for the next.
 pub(super) fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) {
     let Case3 { shape_a, pose_a, shape_b, pose_b } = case;
     let mut batch = Batch3::default();
@@ -20,8 +20,9 @@ pub(super) fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) 
     (batch.manifolds[0], hint)
 }
 
-/// A wide box on a small one, tilted so that its own face is the better axis by so many preferences: along the small
-/// one's normal it is as deep as its lower corner, along its own only as the small one's higher.
+/// A wide box on a small one, tilted so that its own face is the better axis by this many face preferences: along the
+/// small one's normal the depth is that of the wide box's lower corner, along its own that of the small one's higher
+/// corner only.
 fn tilted(preferences: f64) -> Case3 {
     let (under, over) = (Vec3::new(0.25, 0.5, 0.25), Vec3::new(1.0, 0.5, 0.25));
     let preference = FACE_PREFERENCE * 2.0 * under.as_dvec3().length();
@@ -34,8 +35,8 @@ fn tilted(preferences: f64) -> Case3 {
     }
 }
 
-/// The reference face keeps its role until it is beaten by two preferences, in both directions; without a memory, by
-/// one.
+/// With a hint, the reference face keeps its role until another beats it by two preferences, in both directions;
+/// without one, by one preference.
 #[test]
 fn the_reference_face_keeps_its_role_until_beaten_by_two_preferences() {
     let is_of_a = |manifold: &Manifold3| manifold.normal == Vec3::Y;
@@ -49,7 +50,7 @@ fn the_reference_face_keeps_its_role_until_beaten_by_two_preferences() {
         assert_eq!(is_of_a(&alone), preferences < 1.0, "without a memory, at {preferences}: {alone:?}");
         assert_eq!(manifold.separation, alone.separation, "the number does not depend on the memory");
     }
-    // Beyond two the face of B has it; there it stays, since A's never beats it by two.
+    // Beyond two, the face of B takes over; it stays, since A's never beats it by two.
     for preferences in [2.1, 1.5, 0.5, 0.1] {
         let (manifold, next) = frame(&tilted(preferences), hint, 0.0);
         hint = next;
@@ -57,7 +58,7 @@ fn the_reference_face_keeps_its_role_until_beaten_by_two_preferences() {
     }
 }
 
-/// A memory of what these shapes do not have, or of what is no longer the best by far, changes nothing.
+/// A hint of features that these shapes do not have, or that are far from the best, changes nothing.
 #[test]
 fn a_stale_memory_moves_no_point() {
     let mut random = Random::new(330);
@@ -78,8 +79,8 @@ fn a_stale_memory_moves_no_point() {
     }
 }
 
-/// A solver's body trembles on what it rests on. Over sixty frames now one face is the better axis and now the
-/// other, by up to two preferences: with the memory the reference stays, and so does every name.
+/// A solver's body trembles on what it rests on. Over sixty frames now one face is the better axis and now the other,
+/// by up to two preferences: with hints the reference face stays, and so does every feature id.
 #[test]
 fn names_and_the_reference_stay_while_a_resting_body_trembles() {
     let mut random = Random::new(331);
@@ -89,8 +90,8 @@ fn names_and_the_reference_stay_while_a_resting_body_trembles() {
         let turn = random.direction2().as_vec2();
         let aside = random.vector() * 0.1;
         let mut tremble = || {
-            // Along A's normal B is as deep as its lower corner, 1.27 aside; along B's own, as A's, at least 0.25
-            // aside. So much for a slope of up to 7.1e-7 is 1.7 preferences.
+            // Along A's normal the depth is that of B's lower corner, 1.27 aside; along B's normal that of A's, at
+            // least 0.25 aside. At a slope of up to 7.1e-7 the difference is 1.7 preferences.
             let tilt = (random.vector() * 2.5e-7).as_vec3();
             let step = random.vector() * 1e-6;
             let rotation = Quat::from_xyzw(tilt.x, turn.y + tilt.y, tilt.z, turn.x);
@@ -117,8 +118,8 @@ fn names_and_the_reference_stay_while_a_resting_body_trembles() {
     );
 }
 
-/// Over a floor, a tilted box has a point for every lower corner within the margin, each as high as that corner, and no
-/// other.
+/// Over a floor, a tilted box has one point for every lower corner within the margin, at that corner's height, and no
+/// others.
 #[test]
 fn points_ahead_of_contact_are_the_corners_within_the_margin() {
     let mut random = Random::new(332);

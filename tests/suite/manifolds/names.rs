@@ -1,10 +1,10 @@
-//! Names of points between bodies that stand squarely on each other, or edge to edge: they stay while the bodies
-//! tremble.
+//! Feature ids of points between bodies that stand squarely on each other, or edge to edge: they persist while the
+//! bodies tremble.
 //!
-//! Symptom: of unit cubes in a stack that trembled by 1e-5 m to 1e-3 m, up to one point in sixteen had another name in
-//! every frame, and a solver did not know it again: six of them still shook after 20 seconds. Cause: a corner was now a
-//! hair within the other's side, now beside it, and was named after what it lay on: a vertex of one, of the other, or
-//! edges that cross.
+//! Symptom: in a stack of unit cubes that trembled by 1e-5 m to 1e-3 m, up to one point in sixteen had another feature
+//! id in every frame, and a solver did not find it again: six cubes still shook after 20 seconds. Cause: a corner was
+//! now a hair inside the other's side and now outside, and was named after what it lay on: a vertex of one, of the
+//! other, or two edges that cross.
 
 use super::frames::frame;
 use super::pair3;
@@ -13,7 +13,7 @@ use asunder_narrow::{FeatureId, Hint, Pair2};
 use asunder_tests::cases::{Case3, Random, prism};
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// How far bodies tremble, in sizes.
+/// How far bodies tremble, as a share of their size.
 const TREMBLES: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 const FRAMES: usize = 200;
@@ -25,7 +25,7 @@ fn cube(half: f32, radius: f32) -> Shape3 {
     Cuboid::from_half_extents(Vec3::splat(half)).unwrap().rounded(radius).unwrap().into()
 }
 
-/// A shape that stands on another at a place, a little sunk, turned about y and tilted by so much at most.
+/// A shape that stands on another at a place, slightly sunk in, and turned about y and tilted by at most `tremble`.
 fn standing(random: &mut Random, [below, above]: &[Shape3; 2], at: DVec3, tremble: f64) -> Case3 {
     let shift = random.vector() * tremble;
     let [x, y, z] = random.vector().to_array().map(|c| 0.5 * c * tremble);
@@ -38,7 +38,7 @@ fn standing(random: &mut Random, [below, above]: &[Shape3; 2], at: DVec3, trembl
     }
 }
 
-/// The names that a pair's points have in all frames, with a memory and without.
+/// The feature ids that a pair's points have in all frames, with hints and without.
 fn names_that_stay(random: &mut Random, shapes: &[Shape3; 2], at: DVec3, tremble: f64) -> Vec<FeatureId> {
     let (mut hint, mut first): (_, Option<Vec<FeatureId>>) = (Hint::NONE, None);
     for _ in 0..FRAMES {
@@ -66,7 +66,7 @@ fn solids_that_stand_squarely_on_each_other_keep_the_names_of_their_points() {
         ] {
             assert_eq!(names_that_stay(&mut random, &[below, above], DVec3::Y * 0.9995, tremble).len(), 4);
         }
-        // A brick over the joint of two: its edge runs along theirs, its corners lie on their sides.
+        // A brick offset by half on its like: its edge runs along the other's, its corners lie on the other's sides.
         let brick = cube(0.5, 0.0);
         let at = DVec3::new(0.5, 0.9995, 0.0);
         assert_eq!(names_that_stay(&mut random, &[brick.clone(), brick], at, tremble).len(), 4);
@@ -94,9 +94,9 @@ fn outlines_that_stand_squarely_on_each_other_keep_the_names_of_their_points() {
     }
 }
 
-/// Symptom: of two rounded rectangles, one tilted by a hundredth, one corner was told as two points 5 mm apart. Cause:
-/// the end of an edge that was there already was known by its name, which was another one where the edge was cut again,
-/// further out.
+/// Symptom: for two rounded rectangles, one tilted by a hundredth, one corner was reported as two points 5 mm apart.
+/// Cause: a clipped end that was already present was recognised by its feature id, which changed when the edge was
+/// clipped again, further out.
 #[test]
 fn a_rounded_corner_is_one_point() {
     let rect: Shape2 = Rect::from_half_extents(Vec2::new(1.0, 0.3)).unwrap().rounded(0.5).unwrap().into();

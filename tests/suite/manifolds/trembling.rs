@@ -1,4 +1,4 @@
-//! Posts that tremble on what they stand on: of more corners than a manifold holds, the same four in every frame.
+//! Posts that tremble on what they stand on: more corners than a manifold holds, and the same four kept in every frame.
 
 use super::faces::places;
 use super::frames::frame;
@@ -8,7 +8,7 @@ use asunder_narrow::{FeatureId, Hint, Manifold3};
 use asunder_tests::cases::{Case3, Random, prism};
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// Sides of the posts.
+/// Numbers of sides of the posts.
 const SIDES: [usize; 6] = [5, 6, 8, 12, 16, 24];
 
 /// How far a post leans at most, in radians.
@@ -24,7 +24,7 @@ fn regular(corners: usize, radius: f64) -> Vec<Vec2> {
     (0..corners).map(|i| (DVec2::from_angle(i as f64 * step) * radius).as_vec2()).collect()
 }
 
-/// The plane z = 0 in many ways, as wide as a post at least, and where it stands.
+/// The plane z = 0 as many kinds of shape, at least as wide as a post, and their poses.
 fn floors() -> Vec<(Shape3, Pose3)> {
     let below = |half: f64| Pose3::at([0.0, 0.0, -half]).unwrap();
     let cell = 0.37;
@@ -34,7 +34,7 @@ fn floors() -> Vec<(Shape3, Pose3)> {
     let triangles: Vec<[u32; 3]> = cells.flat_map(|i| [[i, i + 1, i + 10], [i, i + 10, i + 9]]).collect();
     let wide = [Vec3::new(-9.0, -9.0, 0.0), Vec3::new(9.0, -9.0, 0.0), Vec3::new(0.0, 15.0, 0.0)];
     let field = HeightField::new(9, 9, [0.0; 81], Vec2::splat(cell)).unwrap();
-    // Its heights are along y, which a turn by a right angle brings upwards.
+    // Its heights are along y, which a quarter turn points upwards.
     let field_at = Pose3::new([-4.3 * 0.37, 4.2 * 0.37, 0.0], Quat::from_xyzw(1.0, 0.0, 0.0, 1.0)).unwrap();
     vec![
         (Cuboid::from_half_extents(Vec3::new(50.0, 50.0, 0.5)).unwrap().into(), below(0.5)),
@@ -47,7 +47,7 @@ fn floors() -> Vec<(Shape3, Pose3)> {
     ]
 }
 
-/// A post that trembles on its foot: it leans now here and now there, and moves by micrometres.
+/// A post that trembles on its foot: it leans in varying directions, and moves by micrometres.
 struct Trembling {
     foot: DVec2,
     turn: DVec2,
@@ -72,7 +72,7 @@ fn ids(manifold: &Manifold3) -> Vec<FeatureId> {
     manifold.points.iter().map(|point| point.feature).collect()
 }
 
-/// Sixty frames of a post, as B or as A; returns the four that it stands on.
+/// Runs sixty frames of a post, as B or as A; returns the four corners that it stands on.
 fn stand(
     random: &mut Random,
     floor: &(Shape3, Pose3),
@@ -98,9 +98,9 @@ fn stand(
     first.unwrap()
 }
 
-/// Symptom: the four corners that a post was told to stand on changed in up to four of five frames, with them what a
-/// solver starts from. Cause: the deepest corner had to be one of them, by however little it was, and of fours with the
-/// same area rounding took one.
+/// Symptom: the four corners that were reported for a post changed in up to four of five frames, and with them the
+/// values that warm-start a solver. Cause: the deepest corner had to be one of them, by however small a difference, and
+/// among sets of four with equal area rounding chose.
 #[test]
 fn a_post_that_trembles_stands_on_the_same_four_corners() {
     let mut random = Random::new(340);
@@ -118,7 +118,7 @@ fn a_post_that_trembles_stands_on_the_same_four_corners() {
     }
 }
 
-/// How near a corner of either outline is to a side of the other.
+/// How near the corners of either outline come to the sides of the other.
 fn nearest(p: &[DVec2], q: &[DVec2]) -> f64 {
     let to_side = |at: DVec2, [from, to]: [DVec2; 2]| {
         let share = ((at - from).dot(to - from) / (to - from).length_squared()).clamp(0.0, 1.0);
@@ -131,8 +131,8 @@ fn nearest(p: &[DVec2], q: &[DVec2]) -> f64 {
     q.iter().map(|&at| to_sides(at, p)).fold(one, f64::min)
 }
 
-/// The same where the post's foot hangs over a smaller prism, and corners of what they share are crossings of their
-/// sides: as long as no corner comes near a side, all features stay, and so do the four.
+/// The same where the post's foot hangs over a smaller prism, so that corners of the patch are crossings of their
+/// sides: as long as no corner comes near a side, all feature ids persist, and so do the four.
 #[test]
 fn a_post_that_trembles_on_another_keeps_the_names_of_their_crossings() {
     let mut random = Random::new(341);
@@ -159,9 +159,8 @@ fn a_post_that_trembles_on_another_keeps_the_names_of_their_crossings() {
     assert!(crossed > 100, "{crossed} with crossings");
 }
 
-/// Symptom: a cube that trembled on its like, turned by 45 degrees, was told to stand on one four of their eight
-/// corners and then on the other. Cause: both cover as much, and which of them covers a millionth more was left to
-/// decide.
+/// Symptom: a cube that trembled on its like, turned by 45 degrees, was reported to stand now on one four of their
+/// eight corners and now on the other. Cause: both sets cover the same area, and a millionth more or less decided.
 #[test]
 fn a_cube_that_trembles_on_its_like_stands_on_the_same_four_corners() {
     let mut random = Random::new(343);
@@ -182,7 +181,7 @@ fn a_cube_that_trembles_on_its_like_stands_on_the_same_four_corners() {
     }
 }
 
-/// A post that leans by more than trembling stands on its deepest corner, whatever else holds it.
+/// A post that leans by more than trembling stands on its deepest corner, whatever the other points are.
 #[test]
 fn a_post_that_leans_stands_on_its_deepest_corner() {
     let mut random = Random::new(342);
@@ -206,7 +205,7 @@ fn a_post_that_leans_stands_on_its_deepest_corner() {
         let is_told = |corner: &DVec3| {
             let at = (*corner + pose_b.position()).truncate() - floor.1.position().truncate();
             let is_it = |place: &DVec2| (*place - at).length() < 1e-3;
-            // On ground that is turned, anchors still are in the world's axes.
+            // On ground that is turned, anchors are still in the world's axes.
             places(&manifold).iter().any(is_it)
         };
         let mut deep = corners.iter().filter(|corner| corner.z <= lowest.z + even);

@@ -8,7 +8,7 @@ use asunder_narrow::{Impact2, Manifold2, Pair2, Separation2, cast_ray2};
 use asunder_scenes::random::Random;
 use core::ops::ControlFlow;
 
-/// Parts of a compound of few.
+/// Parts of a small compound.
 const FEW: usize = 7;
 
 fn direction(random: &mut Random) -> DVec2 {
@@ -44,7 +44,7 @@ fn anywhere(random: &mut Random, reach: f64) -> DVec2 {
     random.within(DVec3::splat(-reach), DVec3::splat(reach)).truncate()
 }
 
-/// A body of so many parts, in a room so wide.
+/// `count` parts at random poses within `reach`.
 fn parts(random: &mut Random, count: usize, reach: f64) -> Vec<(Pose2, Shape2)> {
     let mut place = || {
         let rotation = if random.below(3) == 0 { Rotation2::IDENTITY } else { rotation(random) };
@@ -53,7 +53,7 @@ fn parts(random: &mut Random, count: usize, reach: f64) -> Vec<(Pose2, Shape2)> 
     (0..count).map(|_| place()).collect()
 }
 
-/// A body, and the same in pieces, each with the number of its first part.
+/// A body, and the same body in pieces, each with the number of its first part.
 struct Body {
     whole: Shape2,
     pieces: Vec<(u32, Shape2)>,
@@ -70,7 +70,7 @@ fn alone(shape: Shape2, pose: Pose2) -> Body {
     Body { whole: shape.clone(), pieces: vec![(0, shape)], pose }
 }
 
-/// Two bodies, of which the first has many parts, in any order.
+/// Two bodies in either order, one of which has many parts.
 fn bodies(random: &mut Random) -> [Body; 2] {
     let count = 32 + random.below(60);
     let far = [DVec2::ZERO, DVec2::new(1e5, -3e4)][random.below(2)];
@@ -93,7 +93,7 @@ fn bodies(random: &mut Random) -> [Body; 2] {
     if random.below(2) == 0 { [one, other] } else { [other, one] }
 }
 
-/// Everything that two bodies' pieces say of each other.
+/// Collects a result for each pair of the two bodies' pieces.
 fn piecewise<T>([a, b]: &[Body; 2], mut ask: impl FnMut(&Pair2, [u32; 2]) -> T) -> Vec<T> {
     let mut all = vec![];
     for (from_a, piece_a) in &a.pieces {
@@ -122,7 +122,7 @@ fn a_tree_of_parts_leaves_out_nothing_that_counts() {
         let overlaps = piecewise(&both, |pair, _| pair.overlaps()).contains(&true);
         assert_eq!(pair.overlaps(), overlaps, "{round}");
 
-        // The least of all pieces' separations; at a limit, that or a bound.
+        // The least of all pieces' separations; with a limit, that or a bound.
         let all = piecewise(&both, |pair, _| measured(pair.separation(f32::INFINITY)).unwrap());
         let least = all.iter().fold(f64::INFINITY, |least, (separation, _)| least.min(*separation));
         let (separation, error) = measured(pair.separation(f32::INFINITY)).unwrap();
@@ -166,7 +166,7 @@ fn a_tree_of_parts_leaves_out_nothing_that_counts() {
     assert!(touching > 300 && apart > 300 && met > 300, "{touching} {apart} {met}");
 }
 
-/// Casts and impacts of whole bodies come when the first of all pieces' do.
+/// Casts and impacts of whole bodies come at the first time of all pieces'. Returns how many hit.
 fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
     let [a, b] = both;
     let pair = Pair2::new(&a.whole, &a.pose, &b.whole, &b.pose);
@@ -198,7 +198,7 @@ fn check_motions(random: &mut Random, both: &[Body; 2], round: usize) -> usize {
         let overlap = expected.iter().any(|impact| impact.overlapping);
         assert_eq!(found.is_some_and(|found| found.overlapping), overlap, "{round}");
         let at = found.map_or(f64::INFINITY, |found| found.fraction);
-        // A search ends within 1e-6 of the size, where depends on how far it need look.
+        // A search ends within 1e-6 of the size; where exactly depends on how far it has to search.
         assert!(at == first || (at - first).abs() < 3e-6, "{round}: {at} for {first}");
         met += usize::from(found.is_some_and(|found| !found.overlapping));
     }
@@ -268,7 +268,7 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
         };
         far.sort_unstable();
         assert_eq!(far, (0..parts.len() as u32).collect::<Vec<_>>(), "{round}");
-        // All that are as near as the nearest, and none that is much further.
+        // All parts that are as near as the nearest, and none that is much further.
         let least = far.iter().map(|&part| gap(part)).fold(f32::INFINITY, f32::min);
         let mut nearest = vec![];
         compound.visit_nearest(&bounds, least.into(), |part| {
@@ -280,7 +280,7 @@ fn walks_over_parts_find_what_a_loop_over_their_boxes_finds() {
     }
 }
 
-/// Parts that are passed over reach no further than those that are looked at, bit for bit.
+/// Skipped parts reach no further than those that are tested, bit for bit.
 #[test]
 fn the_box_around_many_parts_is_that_around_them_one_by_one() {
     let mut random = Random::new(0xB0C6);
@@ -289,7 +289,7 @@ fn the_box_around_many_parts_is_that_around_them_one_by_one() {
     let grid: Vec<(Pose2, Shape2)> = (0..256).map(|i| (cell(i), square.clone())).collect();
     let mut scenes = vec![grid.clone(), parts(&mut random, 16, 1e-3), parts(&mut random, 40, 5e5)];
     scenes.extend((0..30).map(|i| parts(&mut random, 16 + 40 * i, 6.0)));
-    // Many that reach nearly as far.
+    // Many parts that reach nearly equally far.
     let ball: Shape2 = Circle::new(0.25).unwrap().into();
     for jitter in [1e-7, 1e-6, 1e-5, 1e-4, 1e-3].repeat(40) {
         let near = |at: &Pose2, random: &mut Random| {

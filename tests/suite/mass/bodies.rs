@@ -1,4 +1,4 @@
-//! What must hold of any body: possible values, symmetries, compounds, shapes without matter, refusals.
+//! What must hold for any body: plausible values, symmetries, compounds, shapes without volume, rejections.
 
 use super::{ROUNDING, both, check_possible, check2, check3, cloud, hull, least_spread, of2, of3, points};
 use asunder_geometry::{
@@ -13,8 +13,7 @@ fn unit(random: &mut Rand64) -> f32 {
     random.rand_float() as f32 * 2.0 - 1.0
 }
 
-/// Points in a box of any proportions up to a million to one, turned anyhow or not at all, near the origin or far
-/// from it.
+/// Points in a box of any proportions up to a million to one, rotated or not, near the origin or far from it.
 fn any_points(random: &mut Rand64) -> Vec<Vec3> {
     let count = 4 + random.rand_range(0..40) as usize;
     let extents: Vec3 =
@@ -84,14 +83,14 @@ fn units_and_names_of_axes_do_not_matter() {
     for radius in [0.0, 0.3, 40.0] {
         let cloud = points(&cloud(&mut random, 12, [300, 200, 100]), 0.03);
         let found = of3(hull(&cloud, radius));
-        // Twice as large: every number of the computation is, exactly.
+        // Twice as large: exact in every number of the computation.
         let doubled = of3(hull(&cloud.iter().map(|&p| p * 2.0).collect::<Vec<_>>(), radius * 2.0));
         let inertia = found.inertia * 32.0;
         assert_eq!(doubled, MassProperties3 { mass: found.mass * 8.0, center: found.center * 2.0, inertia });
         let dense = Shape3::from(hull(&cloud, radius)).mass_properties(4.0).unwrap();
         assert_eq!((dense.mass, dense.center), (found.mass * 4.0, found.center));
         assert_eq!(dense.inertia, found.inertia * 4.0);
-        // x to y to z to x.
+        // Cycles the axes: x to y to z to x.
         let turned = of3(hull(&cloud.iter().map(|p| Vec3::new(p.z, p.x, p.y)).collect::<Vec<_>>(), radius));
         let pose = Pose3::new(DVec3::ZERO, Quat::from_xyzw(1.0, 1.0, 1.0, 1.0)).unwrap();
         check3(&turned, &found.posed(&pose), 1e-14);
@@ -108,7 +107,7 @@ fn a_little_rounding_changes_little() {
     let mut random = Rand64::new(23);
     let cloud = points(&cloud(&mut random, 10, [100; 3]), 0.01);
     let sharp = of3(hull(&cloud, 0.0));
-    // The surface of what fits a box of 2 m is below 24 m^2, all within 2 m of the centre.
+    // The surface of a shape that fits a box of 2 m is below 24 m^2, all within 2 m of the centre.
     for radius in [1e-45_f32, 1e-20, 1e-9, 1e-5] {
         let round = of3(hull(&cloud, radius));
         let bound = 25.0 * f64::from(radius) + 1e-14 * sharp.mass;
@@ -138,7 +137,7 @@ fn a_cuboid_in_two_pieces_is_the_cuboid() {
 fn a_posed_part_weighs_what_the_posed_shape_does() {
     let mut random = Rand64::new(24);
     let lattice = cloud(&mut random, 9, [20; 3]);
-    // A rotation of integers over 15, for points that are multiples of 15; the quaternion has any length.
+    // A rotation by integers over 15, for points that are multiples of 15; the quaternion has any length.
     let turn = [[11, -2, 10], [10, 5, -10], [-2, 14, 5]];
     let moved: Vec<[i64; 3]> = lattice
         .iter()
@@ -151,7 +150,7 @@ fn a_posed_part_weighs_what_the_posed_shape_does() {
         let part = of3(Compound3::new([(pose, shape.clone())]).unwrap());
         check_possible(&part);
         check3(&part, &of3(hull(&points(&moved, 1.0), radius)), ROUNDING);
-        // The same part twice is twice the matter in one place.
+        // The same part twice has twice the mass in one place.
         let twice = of3(Compound3::new([(pose, shape.clone()), (pose, shape)]).unwrap());
         let inertia = part.inertia * 2.0;
         check3(&twice, &MassProperties3 { mass: part.mass * 2.0, inertia, ..part }, 1e-15);
@@ -164,7 +163,7 @@ fn a_dumbbell_is_two_balls_by_the_parallel_axis_theorem() {
     let place = DVec3::new(3.0, -4.0, 12.0);
     let parts = [place, -place].map(|place| (Pose3::at(place).unwrap(), ball.clone()));
     let (found, one) = (of3(Compound3::new(parts).unwrap()), of3(ball));
-    // 0.4 m r^2 along the line through both, and m d^2 more across it, each.
+    // Each has 0.4 m r^2 along the line through both, and m d^2 more across it.
     let along = found.inertia * place;
     assert!((along - place * (0.8 * one.mass * 0.25)).length() < 1e-12 * along.length() * 1e3);
     let across = place.cross(DVec3::X);
@@ -252,7 +251,7 @@ fn what_has_no_mass_to_speak_of_is_refused() {
         Shape3::from(HalfSpace::new(Vec3::Y).unwrap()).mass_properties(1.0),
         Err(MassError::Unbounded)
     );
-    // The extremes of f32 are densities like any other.
+    // The extremes of f32 are valid densities.
     for density in [f32::MIN_POSITIVE, f32::MAX] {
         let largest = Shape2::from(Rect::from_half_extents(Vec2::splat(7e5)).unwrap());
         let found = largest.mass_properties(density).unwrap();

@@ -4,7 +4,7 @@ use asunder_geometry::{MassProperties2, MassProperties3};
 use glam::{DMat3, DVec2, DVec3};
 use num_bigint::{BigInt, Sign};
 
-/// A quotient, right to 2^-60.
+/// A quotient, correct to 2^-60.
 fn quotient(numerator: &BigInt, denominator: &BigInt) -> f64 {
     let shift = 62 + denominator.bits() as i64 - numerator.bits() as i64;
     let shifted = |value: &BigInt, by: i64| if by > 0 { value << by as usize } else { value.clone() };
@@ -26,7 +26,7 @@ impl Sums {
         Self { volume: BigInt::ZERO, first: zero(), second: (0..dimension).map(|_| zero()).collect() }
     }
 
-    /// The simplex between the origin and as many corners as there are dimensions, `size` being their determinant.
+    /// Adds the simplex between the origin and as many corners as there are dimensions; `size` is their determinant.
     fn add(&mut self, size: &BigInt, corners: &[Vec<BigInt>]) {
         let dimension = self.first.len();
         let sum: Vec<BigInt> = (0..dimension).map(|i| corners.iter().map(|c| &c[i]).sum()).collect();
@@ -40,9 +40,9 @@ impl Sums {
         }
     }
 
-    /// Volume, centre, and central second moments. With n dimensions a simplex of determinant d has the volume d /
-    /// n!, the first moment d s / (n + 1)! and the second moment d (sum of c c^T + s s^T) / (n + 2)!, where s is
-    /// the corners' sum.
+    /// Volume, centre, and central second moments. In n dimensions a simplex of determinant d has the volume d / n!,
+    /// the first moment d s / (n + 1)! and the second moment d (sum of c c^T + s s^T) / (n + 2)!, where s is the sum of
+    /// the corners.
     fn properties(&self) -> (f64, Vec<f64>, Vec<Vec<f64>>) {
         let n = self.first.len() as u64;
         let factorial = |k: u64| BigInt::from((1..=k).product::<u64>());
@@ -70,7 +70,7 @@ fn determinant(a: &[BigInt], b: &[BigInt], c: &[BigInt]) -> BigInt {
         + &a[2] * (&b[0] * &c[1] - &b[1] * &c[0])
 }
 
-/// The hull of points in general position, of density 1. Nothing where four of them in one plane bound it.
+/// The hull of points in general position, of density 1. `None` if a facet contains four of them.
 pub(super) fn solid(points: &[[i64; 3]]) -> Option<MassProperties3> {
     let at: Vec<Vec<BigInt>> = points.iter().map(|p| integers(p)).collect();
     let from = |origin: usize, i: usize| -> Vec<BigInt> {
@@ -107,7 +107,7 @@ fn triples(count: usize) -> impl Iterator<Item = (usize, usize, usize)> {
     (0..count).flat_map(move |i| (i + 1..count).flat_map(move |j| (j + 1..count).map(move |k| (i, j, k))))
 }
 
-/// A polygon, counter-clockwise, of density 1.
+/// A counter-clockwise polygon of density 1.
 pub(super) fn polygon(outline: &[[i64; 2]]) -> MassProperties2 {
     let mut sums = Sums::new(2);
     for (i, point) in outline.iter().enumerate() {

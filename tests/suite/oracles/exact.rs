@@ -1,4 +1,4 @@
-//! The exact judge: fast against slow, rounded shapes against closed forms in integers, compounds against their parts.
+//! The exact oracle: fast against slow, rounded shapes against closed forms in integers, compounds against their parts.
 
 use asunder_geometry::{
     Capsule2, Capsule3, Circle, Compound2, Compound3, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2,
@@ -28,7 +28,7 @@ fn lattice_hull(random: &mut Random) -> Shape3 {
     }
 }
 
-/// A rotation by small whole numbers: a rational one.
+/// A rotation by a quaternion of small integers: a rational one.
 fn lattice_turn(random: &mut Random) -> Quat {
     loop {
         let q = [0; 4].map(|_| random.below(4) as f32 - 1.0);
@@ -38,7 +38,7 @@ fn lattice_turn(random: &mut Random) -> Quat {
     }
 }
 
-/// What a relation must be, from the order of a distance and a limit.
+/// The expected relation, given how a distance compares with a limit.
 fn relation_of(order: Ordering) -> Relation {
     match order {
         Ordering::Greater => Relation::Apart,
@@ -54,7 +54,7 @@ fn guesses_that_are_proved_agree_with_the_full_program() {
     for round in 0..2000 {
         let (a, b) = (lattice_hull(&mut random), lattice_hull(&mut random));
         let at = lattice_point(&mut random, 9).as_dvec3() - 4.0;
-        // The same turn for both keeps lattices aligned, and so makes them touch.
+        // The same rotation for both keeps their lattices aligned, so that they often touch.
         let turn = lattice_turn(&mut random);
         let other = if round % 2 == 0 { turn } else { lattice_turn(&mut random) };
         let (pose_a, pose_b) = (Pose3::new(DVec3::ZERO, turn).unwrap(), Pose3::new(at, other).unwrap());
@@ -85,7 +85,7 @@ fn guesses_that_are_proved_agree_with_the_full_program() {
     assert!(touching[0] > 25 && touching[1] > 100, "{touching:?}");
 }
 
-/// One unit in the last place of random places, where the guess is of no use and integers must find the answer alone.
+/// Random touching places, and one or two ulps beside them: the guess is useless, and integers find the answer alone.
 #[test]
 fn guesses_that_fail_are_replaced_by_integers() {
     let mut random = Random::new(902);
@@ -115,7 +115,7 @@ fn cores(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) -> Cores {
     }
 }
 
-/// Boxes judged with the guess that belongs to another pair of boxes: slower, and the same.
+/// Boxes judged with the guess of another pair of boxes: slower, with the same result.
 #[test]
 fn no_answer_rests_on_a_guess() {
     let mut random = Random::new(906);
@@ -173,7 +173,7 @@ fn relations_of_boxes_on_a_grid_are_those_of_their_intervals() {
     assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
 }
 
-/// The order of the distance from the origin to a segment and a radius, by whole numbers.
+/// How the distance from the origin to a segment compares with a radius, in integers.
 fn segment_to_radius(from: [i64; 3], to: [i64; 3], radius: i64) -> Ordering {
     let dot = |p: [i64; 3], q: [i64; 3]| p.iter().zip(q).map(|(p, q)| p * q).sum::<i64>();
     let along = [0, 1, 2].map(|i| to[i] - from[i]);
@@ -219,7 +219,7 @@ fn spheres_and_capsules_are_judged_as_a_closed_form_in_integers_says() {
     assert!(touching.iter().all(|&count| count > 30), "{touching:?}");
 }
 
-/// Touching at `at`, and one unit in the last place of x on either side is not. `outward` says which side is away.
+/// Asserts that the two touch at `at`, and that with x an ulp larger they are apart, an ulp smaller in overlap.
 fn is_on_the_edge3(a: (&Shape3, &Pose3), b: &Shape3, at: DVec3, turn: Quat) {
     let relation = |x: f64| exact_relation3(a, (b, &Pose3::new(DVec3::new(x, at.y, at.z), turn).unwrap()));
     assert_eq!(relation(at.x), Relation::Touching, "{at} {b:?}");
@@ -227,7 +227,7 @@ fn is_on_the_edge3(a: (&Shape3, &Pose3), b: &Shape3, at: DVec3, turn: Quat) {
     assert_eq!(relation(at.x.next_down()), Relation::Overlapping, "{at} {b:?}");
 }
 
-/// Distances that are whole numbers along slanted lines.
+/// Distances that are integers along slanted lines.
 #[test]
 fn rounded_shapes_touch_in_pythagorean_places() {
     let ball = |radius: f32| Shape3::from(Sphere::new(radius).unwrap());
@@ -242,7 +242,7 @@ fn rounded_shapes_touch_in_pythagorean_places() {
     let rounded =
         |radius: f32| Shape3::from(Cuboid::from_half_extents(Vec3::ONE).unwrap().rounded(radius).unwrap());
     is_on_the_edge3((&rounded(3.0), &plain), &rounded(4.0), DVec3::new(4.0, 5.0, 8.0), Quat::IDENTITY);
-    // Turned by a rational rotation, cos 3/5 and sin 4/5: a face at height 1.5, a ball of 3.5, and 5 between.
+    // Rotated by a rational rotation, cos 3/5 and sin 4/5: a face at height 1.5, a ball of 3.5, and 5 between.
     let tilted = Pose3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 2.0)).unwrap();
     is_on_the_edge3((&rounded(0.5), &tilted), &ball(3.5), DVec3::new(3.0, 4.0, 0.25), Quat::IDENTITY);
     // A capsule along x below, one along y above it; and a flat triangle beside a ball.
@@ -252,7 +252,7 @@ fn rounded_shapes_touch_in_pythagorean_places() {
     let [p, q, r] = [Vec3::ZERO, Vec3::Y * 8.0, Vec3::Z * 8.0];
     let triangle: Shape3 = Triangle3::new(p, q, r).unwrap().into();
     is_on_the_edge3((&triangle, &plain), &ball(1.5), DVec3::new(1.5, 2.0, 2.0), Quat::IDENTITY);
-    // A slope of 3 in 4 as a half-space, at a place of its own.
+    // A half-space with a slope of 3 in 4, moved from the origin.
     let slope: Shape3 = HalfSpace::new(Vec3::new(4.0, 3.0, 0.0) * 7.0).unwrap().into();
     let there = Pose3::at(DVec3::new(8.0, 6.0, 3.0)).unwrap();
     is_on_the_edge3((&slope, &there), &ball(5.0), DVec3::new(12.0, 9.0, -3.0), Quat::IDENTITY);
@@ -296,21 +296,21 @@ fn half_spaces_part_only_where_they_look_exactly_away() {
     assert_eq!(heights.map(|h| relation(&up, h)), [Relation::Overlapping; 3]);
 }
 
-/// A part turned and moved inside its body, both by rational rotations, against the same thing made by hand.
+/// A part rotated and moved inside its body, both by rational rotations, against the same pose composed by hand.
 #[test]
 fn compounds_are_their_parts_where_both_poses_put_them() {
     let mut random = Random::new(905);
     let mut touching = 0;
     for round in 0..400 {
         let (shape, other) = (lattice_hull(&mut random), lattice_hull(&mut random));
-        // Quarter turns about two axes, so that the composed pose has a stored quaternion of its own.
+        // Quarter turns about two axes, so that the composed rotation has an exact quaternion, too.
         let turns =
             [Quat::IDENTITY, Quat::from_xyzw(1.0, 0.0, 0.0, 1.0), Quat::from_xyzw(0.0, 2.0, 0.0, 2.0)];
         let (inner, outer) = (random.pick(&turns), random.pick(&turns));
         let [at, moved, away] = [0; 3].map(|_| lattice_point(&mut random, 5).as_dvec3() - 2.0);
         let body = Pose3::new(moved, outer).unwrap();
         let composed = Pose3::new(body.transform(at).round(), product(outer, inner)).unwrap();
-        // A second part, out of reach, changes nothing.
+        // A second part, far away, changes nothing.
         let far = (Pose3::at(DVec3::splat(1e3)).unwrap(), other.clone());
         let compound = Compound3::new([(Pose3::new(at, inner).unwrap(), shape.clone()), far]).unwrap().into();
         let pose = Pose3::at(away).unwrap();
@@ -348,7 +348,7 @@ fn product(p: Quat, q: Quat) -> Quat {
     )
 }
 
-/// Numbers from the ends of the ranges, beside each other.
+/// Numbers from the ends of the ranges, next to each other.
 #[test]
 fn extreme_numbers_are_judged_like_any() {
     let tiny = f64::from_bits(1);
@@ -359,12 +359,12 @@ fn extreme_numbers_are_judged_like_any() {
         let at = |x: f64, y: f64| Pose3::new(DVec3::new(x, y, 0.0), faint).unwrap();
         let relation = |a: Pose3, b: Pose3| exact_relation3((shape, &a), (&cube, &b));
         assert_eq!(relation(at(-1e9, tiny), at(-1e9 + 2.0, -tiny)), Relation::Touching);
-        // A denormal apart, which only a position at zero can say.
+        // Apart by a subnormal, which only a position at zero can represent.
         assert_eq!(relation(at(0.0, 0.0), at(2.0, 1.0)), Relation::Touching);
         assert_eq!(relation(at(-tiny, 0.0), at(2.0, 0.5)), Relation::Apart);
         assert_eq!(relation(at(tiny, 0.0), at(2.0, 0.5)), Relation::Overlapping);
     }
-    // A point of a segment 1e-45 above a plate of a hundred kilometres.
+    // The end of a segment 1e-45 above a plate of a hundred kilometres.
     let plate: Shape3 = Cuboid::from_half_extents(Vec3::new(1e5, 1.0, 1e5)).unwrap().into();
     let needle = |low: f32| Shape3::from(Segment3::new(Vec3::new(0.0, low, 0.0), Vec3::Y).unwrap());
     let pose = Pose3::at(DVec3::Y).unwrap();

@@ -10,14 +10,14 @@ use glam::{DVec3, Vec3};
 use num_bigint::BigInt;
 use std::collections::BTreeSet;
 
-/// A unit that everything here is a multiple of.
+/// Everything here is a multiple of 2^`UNIT`.
 const UNIT: i32 = -400;
 
 fn exactly(value: Dd) -> BigInt {
     value.parts().iter().map(|&part| in_unit(part, UNIT)).sum()
 }
 
-/// Some double-double: 106 bits, of either sign, its size anywhere within 2^-40 to 2^40.
+/// A random double-double: 106 bits, either sign, magnitude within 2^-40 to 2^40.
 fn any(random: &mut Random) -> Dd {
     let scale = f64::from_bits(((1023 + random.below(81) as u64) - 40) << 52);
     let high = random.signed() * scale;
@@ -25,7 +25,7 @@ fn any(random: &mut Random) -> Dd {
     Dd::sum(high, low)
 }
 
-/// Whether `found` is within 2^-102 of `truth`, relatively; both times any one positive factor.
+/// Whether `found` is within a relative 2^-102 of `truth`; both may be scaled by one positive factor.
 fn is_close(found: &BigInt, truth: &BigInt) -> bool {
     let magnitude = BigInt::from(truth.magnitude().clone());
     let error = BigInt::from((found - truth).magnitude().clone());
@@ -38,7 +38,7 @@ fn double_double_is_right_to_2_to_the_minus_102() {
     for round in 0..20_000 {
         let (p, mut q) = (any(&mut random), any(&mut random));
         if round % 4 == 0 {
-            // Sums that cancel nearly everything.
+            // Sums with nearly full cancellation.
             q = Dd::from(-p.to_f64()) + q * Dd::from(1e-20);
         }
         let (x, y) = (exactly(p), exactly(q));
@@ -68,7 +68,7 @@ fn differences_of_f64_are_kept_whole() {
     }
 }
 
-/// All that two hulls of the same points must have in common, whoever found them.
+/// Checks everything that two hulls of the same points, found in two ways, must have in common.
 fn same_facets_and_edges(points: &[Vec3]) {
     let solid = Solid::of_vertices(points);
     let form = Polyhedron::of(&points.iter().map(|p| p.as_dvec3()).collect::<Vec<DVec3>>());
@@ -99,7 +99,7 @@ fn facets_found_by_wrapping_are_those_of_all_triples() {
     while lattices < 300 {
         let points: Vec<Vec3> =
             (0..8).map(|_| Vec3::from_array([0; 3].map(|_| random.below(4) as f32))).collect();
-        // The library keeps the corners only, so that both see the same points.
+        // The library keeps only the corners, so both are given those.
         if let Ok(hull) = Hull::from_points(&points) {
             same_facets_and_edges(hull.vertices());
             lattices += 1;

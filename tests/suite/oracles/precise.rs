@@ -1,4 +1,4 @@
-//! The precise judge: against the exact one, the exhaustive ones, and separations known beforehand.
+//! The double-double oracle: against the exact one, the exhaustive ones, and separations known beforehand.
 
 use asunder_geometry::{
     Capsule3, Compound3, Cuboid, HalfSpace, Pose2, Pose3, Rect, Rotation2, Segment3, Shape2, Shape3, Sphere,
@@ -12,7 +12,7 @@ use asunder_tests::precise::{Precise, along2, along3, separation2, separation3, 
 use asunder_tests::shapes::{KINDS2, KINDS3, PLACES, pair2, pair3};
 use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
-/// Whether a sign and a relation say the same, as far as the separation is known.
+/// Whether a separation's sign agrees with a relation, as far as the separation is known.
 fn agree<V>(precise: &Precise<V>, relation: Relation) -> bool {
     match relation {
         Relation::Apart => precise.separation >= -precise.bound,
@@ -21,12 +21,12 @@ fn agree<V>(precise: &Precise<V>, relation: Relation) -> bool {
     }
 }
 
-/// The size of a pair, and nothing for what has none.
+/// The size of a pair; unbounded shapes add nothing.
 fn size(radii: [f32; 2]) -> f64 {
     radii.iter().filter(|radius| radius.is_finite()).map(|&radius| f64::from(radius)).sum()
 }
 
-/// Every kind of shape with every other in every kind of place.
+/// Every kind of shape with every other in every kind of relative pose.
 #[test]
 fn the_sign_of_a_separation_is_the_exact_relation() {
     let mut random = Random::new(920);
@@ -34,7 +34,7 @@ fn the_sign_of_a_separation_is_the_exact_relation() {
     for round in 0..2 * PLACES {
         for a in &KINDS3 {
             for b in &KINDS3 {
-                // Nothing can be moved to a gap from a half-space that has none.
+                // Two half-spaces have no gap that they could be moved to.
                 if a.0.starts_with("half") && b.0.starts_with("half") {
                     continue;
                 }
@@ -54,10 +54,10 @@ fn the_sign_of_a_separation_is_the_exact_relation() {
                 let size = size([case.shape_a.outer_radius(), case.shape_b.outer_radius()]);
                 let last_place =
                     if precise.separation.is_finite() { precise.separation.abs() * 3e-16 } else { 0.0 };
-                // Half-spaces have no size, and nothing about a far one is known better than its place.
+                // Half-spaces have no size, and far out nothing is known better than the position.
                 let reach = size.max(1e-12 * bodies.reach()) + last_place * 1e12;
                 assert!(precise.bound <= 1e-12 * reach, "{} {} {round}: {precise:?} {size}", a.0, b.0);
-                // What f64 leaves of the same by trying everything.
+                // The same by brute force, within the rounding of f64.
                 let truth = bodies.truth().separation;
                 assert!(
                     truth == precise.separation
@@ -79,7 +79,7 @@ fn the_sign_of_a_separation_in_the_plane_is_the_exact_relation() {
     for round in 0..3 * PLACES {
         for a in &KINDS2 {
             for b in &KINDS2 {
-                // Nothing can be moved to a gap from a half-space that has none.
+                // Two half-planes have no gap that they could be moved to.
                 if a.0.starts_with("half") && b.0.starts_with("half") {
                     continue;
                 }
@@ -122,7 +122,7 @@ fn exhaustive_judges_agree_within_their_rounding() {
         assert!((precise.separation - truth.separation).abs() <= 1e-14, "{round}: {precise:?} {truth:?}");
         assert!(precise.bound <= 2e-15, "{round}: {precise:?}");
         let Precise { normal: Some(normal), .. } = precise else { continue };
-        // An f32 axis is within 6e-8 of the normal, and the pair about 2 m in size.
+        // An f32 axis is within 6e-8 of the normal, and the pair is about 2 m in size.
         let along = along3(a, b, normal.as_vec3());
         assert!((-1e-15..3e-7).contains(&(precise.separation - along)), "{round}: {along} {precise:?}");
         for _ in 0..5 {
@@ -150,7 +150,7 @@ fn at(x: f64, y: f64, z: f64) -> Pose3 {
     Pose3::at(DVec3::new(x, y, z)).unwrap()
 }
 
-/// Whether a separation is a number known beforehand, within its own bound, which must be small.
+/// Whether a separation is a known number, within its own bound, which must be small.
 fn is_known(precise: Precise<DVec3>, separation: f64, normal: Option<DVec3>) -> bool {
     let is_close = (precise.separation - separation).abs() <= precise.bound + separation.abs() * 1.2e-16;
     let same_normal = match (precise.normal, normal) {
@@ -170,22 +170,21 @@ fn separations_known_beforehand_are_found() {
         let turned = separation3(b, a);
         assert!(is_known(turned, separation, normal.map(|n| -n)), "{turned:?}");
     };
-    // Corner to corner along (2, 3, 6), edge to edge along (3, 4), face to face; one unit in the last place.
+    // Corner to corner along (2, 3, 6), edge to edge along (3, 4), face to face; one ulp.
     known((&cube, &home), (&cube, &at(4.0, 5.0, 8.0)), 7.0, Some(DVec3::new(2.0, 3.0, 6.0) / 7.0));
     known((&cube, &home), (&cube, &at(-5.0, 6.0, 0.25)), 5.0, Some(DVec3::new(-0.6, 0.8, 0.0)));
     let hair = 2.0_f64.next_up() - 2.0;
     known((&cube, &home), (&cube, &at(2.0 + hair, 0.5, 0.25)), hair, Some(DVec3::X));
     known((&cube, &home), (&cube, &at(2.0 - hair / 2.0, 0.5, 0.25)), -hair / 2.0, Some(DVec3::X));
     known((&cube, &home), (&cube, &at(2.0, 0.5, 0.25)), 0.0, Some(DVec3::X));
-    // In one pose, six faces are as good as each other.
+    // In one pose, six faces are equally good.
     known((&cube, &home), (&cube, &home), -2.0, None);
     known((&cuboid(1.0, 2.0, 3.0), &home), (&cube, &at(0.25, 0.0, 0.0)), -1.75, Some(DVec3::X));
-    // Two beams crossed at right angles, tilted by cos 3/5 and sin 4/5: edge on edge would be longer, face on face
-    // wins.
+    // Two parallel beams, the upper one rolled by cos 3/5 and sin 4/5 about its length: the lower one's face wins.
     let crossed = Quat::from_xyzw(1.0, 0.0, 0.0, 2.0);
     let beam = cuboid(5.0, 1.0, 1.0);
     let tilted = Pose3::new(DVec3::new(0.0, 3.0, 0.0), crossed).unwrap();
-    // Half heights: 1, and (3 + 4) / 5 of the turned unit square along y; along its own face, 3 * 3/5 - 1 - 7/5.
+    // Half heights: 1, and (3 + 4) / 5 of the rotated unit square along y; along its own face, 3 * 3/5 - 1 - 7/5.
     known((&beam, &home), (&beam, &tilted), 0.6, Some(DVec3::Y));
     // Crossing segments, a point in a triangle's plane, and one segment along another: no depth, no direction.
     let rod = |to: Vec3| Shape3::from(Segment3::new(-to, to).unwrap());
@@ -194,7 +193,7 @@ fn separations_known_beforehand_are_found() {
     known((&rod(Vec3::X), &home), (&rod(Vec3::X), &at(0.5, 0.0, 0.0)), 0.0, None);
     let triangle: Shape3 = Triangle3::new(Vec3::ZERO, Vec3::X * 4.0, Vec3::Y * 4.0).unwrap().into();
     known((&triangle, &home), (&rod(Vec3::Z * 0.5), &at(1.0, 1.0, 0.25)), -0.25, Some(DVec3::Z));
-    // Rounded: from the cores' separation, in and out.
+    // Rounded shapes: from the cores' separation, apart and in overlap.
     let capsule: Shape3 = Capsule3::new(Vec3::NEG_Y, Vec3::Y, 0.25).unwrap().into();
     let ball: Shape3 = Sphere::new(0.5).unwrap().into();
     known((&capsule, &home), (&ball, &at(3.0, 5.0, 0.0)), 4.25, Some(DVec3::new(0.6, 0.8, 0.0)));
@@ -210,8 +209,8 @@ fn separations_known_beforehand_are_found() {
 
 #[test]
 fn the_depth_of_crossed_edges_is_found() {
-    // A cube on its edge below another on its edge, crosswise: each reaches sqrt(2) up or down.
-    // Sine and cosine of a sixteenth of a turn, as half angles go.
+    // A cube on its edge below another on its edge, crosswise: each reaches sqrt(2) up or down. For the half angle, the
+    // sine and cosine of a sixteenth of a turn.
     let [s, c] = [-0.25, 0.25].map(|part| (0.5 + part * std::f64::consts::SQRT_2).sqrt());
     let below = Pose3::new(DVec3::ZERO, Quat::from_xyzw(s as f32, 0.0, 0.0, c as f32)).unwrap();
     let cube = cuboid(1.0, 1.0, 1.0);
@@ -220,7 +219,7 @@ fn the_depth_of_crossed_edges_is_found() {
         let above =
             Pose3::new(DVec3::new(0.0, 0.0, height), Quat::from_xyzw(0.0, s as f32, 0.0, c as f32)).unwrap();
         let precise = separation3((&cube, &below), (&cube, &above));
-        // The f32 quaternion is an eighth of a turn within 6e-8, and the reach at its greatest there.
+        // The f32 quaternion is an eighth of a turn within 6e-8, and the reach has its maximum there.
         assert!((precise.separation + sunk).abs() < 1e-7, "{precise:?}");
         assert!((precise.normal.unwrap() - DVec3::Z).length() < 1e-6, "{precise:?}");
     }
@@ -259,11 +258,11 @@ fn a_compound_is_as_near_as_its_nearest_part() {
     assert_eq!(all, [4.0, 1.0]);
     assert_eq!((separation3(a, b).separation, separation3(a, b).normal), (1.0, Some(DVec3::X)));
     assert_eq!([along3(a, b, Vec3::X * 3.0), along3(a, b, Vec3::NEG_X)], [1.0, -3.0]);
-    // Halfway between both parts, on either side, there is no one normal.
+    // Halfway between both parts, on either side, the normal is not unique.
     assert_eq!(separation3(a, (&cube, &at(1.5, 0.0, 0.0))).normal, None);
 }
 
-/// The largest hulls there may be, deep in each other: faces by the hundred, pairs of edges by the hundred thousand.
+/// The largest possible hulls, deep in each other: faces by the hundred, pairs of edges by the hundred thousand.
 #[test]
 fn hulls_of_256_vertices_have_a_depth() {
     let mut random = Random::new(923);
@@ -274,7 +273,7 @@ fn hulls_of_256_vertices_have_a_depth() {
     assert_eq!(exact_relation3(a, b), Relation::Overlapping);
     assert!(precise.separation < -0.1 && precise.bound < 1e-15, "{precise:?}");
     let normal = precise.normal.unwrap();
-    // The best of all axes beats those beside it, and any other.
+    // The best axis beats those close to it, and any other.
     let spread = [1e-3, 1e-1, 1.0].map(|width| (0..200).map(move |_| width));
     for width in spread.into_iter().flatten() {
         let axis = (normal + random.vector() * width).as_vec3();

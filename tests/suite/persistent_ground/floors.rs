@@ -1,5 +1,5 @@
-//! A crate on a floor cut into triangles, and hulls far from their positions: how far they are moved along, and when
-//! their contacts are made anew.
+//! A crate on a floor cut into triangles, and hulls far from their positions: how far manifolds are moved along, and
+//! when contacts are made anew.
 
 use super::{Stand, moved, roof};
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, TriMesh};
@@ -7,7 +7,7 @@ use asunder_narrow::{Batch3, Manifold3, Persistent3, collide3};
 use asunder_scenes::terrain::Terrain;
 use glam::{DVec3, Vec3};
 
-/// How high a floor cut into triangles is at a place, and a crate 0.8 m wide on it wherever it is wanted.
+/// The height of a floor cut into triangles at a place, and a function that puts a crate 0.8 m wide on it.
 fn crates_on_a_floor(count: usize, place: [f64; 2]) -> (f64, impl Fn(Pose3) -> Stand) {
     let terrain = Terrain::flat(count, 1.0);
     let ground = Shape3::from(TriMesh::new(terrain.vertices(), terrain.triangles()).unwrap());
@@ -22,7 +22,8 @@ fn crates_on_a_floor(count: usize, place: [f64; 2]) -> (f64, impl Fn(Pose3) -> S
     (terrain.under(place).0, stand_at)
 }
 
-/// A slab that slides over a floor cut into triangles: nothing is lost, and a wall that comes near is told of in time.
+/// A crate slides over a floor cut into triangles: no contact is lost, and one with a wall that comes near appears in
+/// time.
 #[test]
 fn a_crate_slides_on_a_floor_as_if_it_were_made_anew() {
     let (height, crate_at) = crates_on_a_floor(800, [10.0, 10.0]);
@@ -90,7 +91,8 @@ fn what_cannot_be_known_is_made_anew() {
     }
 }
 
-/// No margin, no notice: what the body has not been near enough to be told of may come to overlap after a small drift.
+/// Without a margin there is no warning: ground too far away to have been reported may be overlapped after a small
+/// drift.
 #[test]
 fn without_a_margin_nothing_slides_far() {
     let (height, crate_at) = crates_on_a_floor(200, [5.3, 5.3]);
@@ -108,9 +110,9 @@ fn without_a_margin_nothing_slides_far() {
     assert!(reach(0.0) > 0.0 && reach(0.0) <= 3.1e-5 * radius);
 }
 
-/// Symptom: a hull a thousand times its size from its own position was moved along until its contacts could be a
-/// hundredth of its size off.
-/// Cause: what the error may grow by was a share of how far the body reaches from its position.
+/// Symptom: a hull a thousand times its size from its own position was moved along until its contacts could be off by a
+/// hundredth of its size. Cause: the allowed growth of the error was a share of how far the body reaches from its
+/// position.
 #[test]
 fn a_hull_far_from_its_position_is_told_as_well_as_one_about_it() {
     let ground = roof(0.0);
@@ -126,7 +128,7 @@ fn a_hull_far_from_its_position_is_told_as_well_as_one_about_it() {
         let (mut carried, mut spin) = (0, DVec3::Y * f64::from(kept.reach()) / arm);
         for round in 0..60 {
             spin *= 0.85;
-            // About its middle.
+            // About its centre.
             let turned = moved(&pose, DVec3::ZERO, spin);
             let back = pose.transform(middle) - turned.transform(middle);
             let now = moved(&turned, back, DVec3::ZERO);

@@ -6,14 +6,14 @@ use asunder_narrow::{Feature, Manifold3, Pair3};
 use asunder_scenes::random::Random;
 use glam::{DVec3, Quat, Vec3};
 
-/// On spikes and knives, deep and shallow, from either side or the front alone: yes or no is for certain, and corners
-/// are as high as they are told to be.
+/// On spikes and knives, deep and shallow, two-sided or one-sided: the overlap decision is certain, and corners are at
+/// the reported heights.
 #[test]
 fn what_is_moved_along_on_spikes_overlaps_or_not_for_certain() {
     let mut random = Random::new(92);
     let (mut carried, mut overlapping, mut of_fronts, mut on_corners) = (0, 0, 0, 0);
     for round in 0..40 {
-        // A grid of half metres with heights at random; every other one folds back over itself.
+        // A grid of half metres with random heights; every other one folds back over itself.
         let place = |i: u32| f64::from(i) * 0.5;
         let vertices: Vec<Vec3> = (0..8_u32)
             .flat_map(|z| (0..8_u32).map(move |x| (x, z)))
@@ -74,7 +74,7 @@ fn what_is_moved_along_on_spikes_overlaps_or_not_for_certain() {
     assert!(of_fronts > 500 && on_corners > 500, "{of_fronts} {on_corners}");
 }
 
-/// A ball beside an edge or a corner of ground is as far from it as it is told to be, up to the error.
+/// Asserts that a ball beside an edge or a corner of ground is at the reported distance, up to the error.
 fn check_ball(stand: &Stand, now: &Pose3, found: &[Manifold3], story: &str) {
     let Shape3::Sphere(sphere) = &stand.body else { return };
     let ground = Ground::of(&stand.ground).unwrap();

@@ -1,4 +1,4 @@
-//! All questions about one shape, one point and one ray, and what each body of the world has to do with them.
+//! All queries about one shape, one point and one ray, and how each body of the world relates to them.
 
 use asunder::{
     CastAnswer, Circle, Collider, Filter, Manifold2, Manifold3, Motion2, Motion3, NearAnswer, Pair2, Pair3,
@@ -12,20 +12,20 @@ use core::fmt::Debug;
 use core::ops::ControlFlow;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// What is asked.
+/// The arguments of the queries.
 #[derive(Clone, Debug)]
 pub(super) struct Asked<S: Questioned> {
     pub(super) shape: S::Shape,
     pub(super) pose: S::Pose,
     pub(super) point: S::Point,
     pub(super) within: f32,
-    /// From the point.
+    /// Starts at the point.
     pub(super) ray: S::Ray,
     pub(super) limit: f64,
     pub(super) displacement: S::Vector,
 }
 
-/// Every list and every first answer.
+/// The result of every list query and every first-hit query.
 #[derive(Debug, PartialEq)]
 pub(super) struct All<K, N, P, M> {
     pub(super) boxes: Vec<K>,
@@ -34,7 +34,7 @@ pub(super) struct All<K, N, P, M> {
     pub(super) near_point: Vec<NearAnswer<K, N, P>>,
     pub(super) near_shape: Vec<NearAnswer<K, N, P>>,
     pub(super) closest: [Option<NearAnswer<K, N, P>>; 2],
-    /// How the shape meets bodies within the distance.
+    /// The shape's manifolds with bodies within the distance.
     pub(super) manifolds: Vec<(K, M)>,
     pub(super) rays: Vec<RayAnswer<K, N, P>>,
     pub(super) first_ray: Option<RayAnswer<K, N, P>>,
@@ -49,50 +49,50 @@ pub(super) type Answers<S> =
 
 pub(super) type Near<S> = NearAnswer<<S as Space>::Key, <S as Questioned>::Vector, <S as Questioned>::Point>;
 
-/// What one body has to do with what is asked, from the narrow phase alone.
+/// How one body relates to the arguments, by the narrow phase alone.
 pub(super) struct Judged {
     pub(super) boxes: bool,
     pub(super) holding: bool,
     pub(super) over: bool,
-    /// Distances and their errors; overlapping bodies have none.
+    /// Distances and their errors; `None` in overlap.
     pub(super) to_point: Option<(f32, f32)>,
     pub(super) to_shape: Option<(f32, f32)>,
-    /// Distance along the ray, what it may be off by, and whether it starts inside.
+    /// Distance along the ray, its error, and whether the ray starts inside.
     pub(super) along_ray: Option<(f64, f64, bool)>,
-    /// Fraction of the displacement, and whether they overlap already.
+    /// Fraction of the displacement, and whether they overlap at the start.
     pub(super) along: Option<(f64, bool)>,
-    /// The same, but for what they touch already.
+    /// The same, passing over what is touched at the start.
     pub(super) onwards: Option<f64>,
-    /// Whether the body's box is beside the ray, or the way of the moved shape's box: then they meet by rounding at
-    /// most.
+    /// Whether the body's AABB is beside the ray, or beside the path of the moving shape's AABB: then they meet only by
+    /// rounding, if at all.
     pub(super) is_beside: [bool; 2],
 }
 
-/// A dimension, by its questions.
+/// A dimension, by its queries.
 pub(super) trait Questioned: Engine {
     type Vector: Copy + Debug + PartialEq + Send + Sync;
     type Point: Copy + Debug + PartialEq + Send + Sync;
     type Ray: Clone + Debug + Send + Sync;
 
-    /// The body, that far along the first axis.
+    /// The body, moved by `shift` along the first axis.
     fn shifted(body: Collider<Self>, shift: f64) -> Collider<Self>;
-    /// A pose within `reach` of a place that far along the first axis.
+    /// A pose within `reach` of the place at `shift` on the first axis.
     fn pose_in(random: &mut Random, reach: f64, shift: f64) -> Self::Pose;
-    /// Something to ask there.
+    /// Random arguments around that place.
     fn asked(random: &mut Random, reach: f64, shift: f64) -> Asked<Self>;
-    /// The shape of a body and a point of it, or near it.
+    /// Runs all queries that return lists.
     fn lists(world: &World<Self>, asked: &Asked<Self>, filter: &Filter<'_, Self>, into: &mut Answers<Self>);
-    /// The same by visitors.
+    /// Runs the same queries with visitors.
     fn visits(world: &World<Self>, asked: &Asked<Self>, filter: &Filter<'_, Self>, into: &mut Answers<Self>);
-    /// What a body has to do with it.
+    /// How a body relates to the arguments.
     fn judge(asked: &Asked<Self>, body: &Collider<Self>, touches: &[Self::Touch]) -> Judged;
-    /// How the shape meets a body within the distance, in the narrow phase's order.
+    /// The shape's manifolds with a body within the distance, in the narrow phase's order.
     fn manifolds_with(asked: &Asked<Self>, body: &Collider<Self>) -> Vec<Self::Manifold>;
     /// What the shape touches of a body.
     fn touches_of(asked: &Asked<Self>, body: &Collider<Self>, to: &mut Vec<Self::Touch>);
-    /// Fails if the moved shape overlaps the body before this share of the displacement.
+    /// Asserts that the moving shape does not overlap the body before this fraction of the displacement.
     fn check_free(asked: &Asked<Self>, fraction: f64, body: &Collider<Self>);
-    /// How far two points are apart, and the largest coordinate of both.
+    /// The distance of two points, and the largest coordinate of both.
     fn apart(one: Self::Point, other: Self::Point) -> (f64, f64);
 }
 
@@ -113,14 +113,14 @@ fn no_answers<S: Questioned>() -> Answers<S> {
     }
 }
 
-/// What the world says.
+/// The world's answers.
 pub(super) fn answers<S: Questioned>(
     world: &World<S>,
     asked: &Asked<S>,
     filter: &Filter<'_, S>,
 ) -> Answers<S> {
     let mut answers = no_answers::<S>();
-    // Leftovers in a caller's list must go.
+    // Leftovers in the caller's list must be removed.
     answers.boxes.extend(S::bodies(world).first().map(|(key, _)| *key));
     S::lists(world, asked, filter, &mut answers);
     answers
@@ -134,7 +134,7 @@ pub(super) fn not_touched<S: Questioned>(mut found: Answers<S>) -> Answers<S> {
     found
 }
 
-/// What visitors are told, put in order.
+/// The visitors' answers, sorted.
 pub(super) fn visited<S: Questioned>(
     world: &World<S>,
     asked: &Asked<S>,
@@ -179,7 +179,7 @@ impl Questioned for Volume {
         let point = Self::pose_in(random, reach, shift).position();
         let within = random.pick(&[0.0, 0.2, 1.0, 3.0, f32::INFINITY]);
         let along = random.vector().as_vec3() * random.pick(&[0.1, 1.0, 10.0]);
-        // Some along an axis, where boxes touch all the way.
+        // Some along an axis, where boxes may touch all the way.
         let along = if random.below(4) == 0 { Vec3::X * along.x } else { along };
         let ray = Ray3::new(point, along).unwrap();
         let limit = random.pick(&[0.0, 0.5, 3.0, f64::INFINITY]);
@@ -248,7 +248,7 @@ impl Questioned for Volume {
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
             onwards: {
                 let (way, still) = (Motion3::shift(asked.displacement).unwrap(), Motion3::STILL);
-                // As bullets meet: what is in a sensor runs into no other part of it.
+                // As for bullets: inside a sensor, the shape hits no other part of it.
                 let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
                 if body.is_sensor() { met } else { pair.next_impact_beside(touches, &way, &still) }
             }
@@ -263,7 +263,7 @@ impl Questioned for Volume {
     }
 
     fn check_free(asked: &Asked<Self>, fraction: f64, body: &Collider<Self>) {
-        // A hair before, so that a rounding of the position is no overlap.
+        // Slightly before, so that the rounding of the position causes no overlap.
         let moved = asked.displacement.as_dvec3() * fraction * (1.0 - 1e-6);
         let pose = Pose3::new(asked.pose.position() + moved, asked.pose.rotation()).unwrap();
         let pair = Pair3::new(&asked.shape, &pose, body.shape(), body.pose());
@@ -295,7 +295,7 @@ impl Questioned for Plane {
         let point = Self::pose_in(random, reach, shift).position();
         let within = random.pick(&[0.0, 0.2, 1.0, 3.0, f32::INFINITY]);
         let along = random.vector().truncate().as_vec2() * random.pick(&[0.1, 1.0, 10.0]);
-        // Some along an axis, where boxes touch all the way.
+        // Some along an axis, where boxes may touch all the way.
         let along = if random.below(4) == 0 { Vec2::X * along.x } else { along };
         let ray = Ray2::new(point, along).unwrap();
         let limit = random.pick(&[0.0, 0.5, 3.0, f64::INFINITY]);
@@ -364,7 +364,7 @@ impl Questioned for Plane {
             along: pair.cast(asked.displacement).map(|impact| (impact.fraction, impact.overlapping)),
             onwards: {
                 let (way, still) = (Motion2::shift(asked.displacement).unwrap(), Motion2::STILL);
-                // As bullets meet: what is in a sensor runs into no other part of it.
+                // As for bullets: inside a sensor, the shape hits no other part of it.
                 let met = pair.impact(&way, &still).filter(|impact| !impact.overlapping);
                 if body.is_sensor() { met } else { pair.next_impact_beside(touches, &way, &still) }
             }
@@ -379,7 +379,7 @@ impl Questioned for Plane {
     }
 
     fn check_free(asked: &Asked<Self>, fraction: f64, body: &Collider<Self>) {
-        // A hair before, so that a rounding of the position is no overlap.
+        // Slightly before, so that the rounding of the position causes no overlap.
         let moved = asked.displacement.as_dvec2() * fraction * (1.0 - 1e-6);
         let pose = Pose2::new(asked.pose.position() + moved, asked.pose.rotation()).unwrap();
         let pair = Pair2::new(&asked.shape, &pose, body.shape(), body.pose());
@@ -391,7 +391,7 @@ impl Questioned for Plane {
     }
 }
 
-/// A visitor that keeps all that it is told.
+/// A visitor that keeps everything.
 fn push<T>(into: &mut Vec<T>) -> impl FnMut(T) -> ControlFlow<()> {
     into.clear();
     |answer| {

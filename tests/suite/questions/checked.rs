@@ -1,4 +1,4 @@
-//! Answers held against what the narrow phase says of each body.
+//! Answers compared with what the narrow phase reports for each body.
 
 use super::asked::{Answers, Asked, Judged, Near, Questioned};
 use super::sieve::{Allowed, Sieve};
@@ -10,7 +10,7 @@ fn passing<S: Questioned>(world: &World<S>, allowed: &Allowed<S>) -> Vec<(S::Key
     S::bodies(world).into_iter().filter(|(key, body)| allowed(*key, body)).collect()
 }
 
-/// Fails unless the world says of every body what the narrow phase says of it.
+/// Asserts that the world agrees with the narrow phase about every body.
 pub(super) fn check<S: Questioned>(world: &World<S>, asked: &Asked<S>, sieve: &Sieve<S>, found: &Answers<S>) {
     let bodies = passing(world, &sieve.allowed);
     let mut touches = Vec::new();
@@ -46,7 +46,7 @@ pub(super) fn check<S: Questioned>(world: &World<S>, asked: &Asked<S>, sieve: &S
     }
 }
 
-/// Fails unless rays and moved shapes meet who the narrow phase says they do.
+/// Asserts that rays and moving shapes hit the bodies that the narrow phase says they do.
 fn check_casts<S: Questioned>(
     asked: &Asked<S>,
     judged: &[(S::Key, Collider<S>, Judged)],
@@ -101,13 +101,13 @@ fn check_casts<S: Questioned>(
     known
 }
 
-/// Fails unless a moved shape runs into the first that the narrow phase says it does, but for what it touches.
+/// Asserts that a moving shape runs into the first body by the narrow phase, apart from those that it touches.
 fn check_onwards<S: Questioned>(
     asked: &Asked<S>,
     judged: &[(S::Key, Collider<S>, Judged)],
     found: &Answers<S>,
 ) {
-    // A box may say that a body is met later than a cast does, by no more than that errs.
+    // The AABB test may give a later time for a hit than a cast does, by no more than the cast's error.
     let is_same = |told: f64, truth: f64| told >= truth && told <= truth + 1e-5;
     let first = found.onwards.map_or(f64::INFINITY, |hit| hit.fraction);
     for (key, _, judged) in judged.iter().filter(|(.., judged)| !judged.is_beside[1]) {
@@ -120,7 +120,7 @@ fn check_onwards<S: Questioned>(
     }
 }
 
-/// A body, and its distance with the judge's error, if it is apart.
+/// A body, and its distance with the oracle's error, if it is apart.
 type Truth<S> = (<S as asunder::Space>::Key, Option<(f32, f32)>);
 
 fn check_near<S: Questioned>(asked: &Asked<S>, judged: &[Truth<S>], found: &[Near<S>]) {
@@ -142,7 +142,7 @@ fn check_near<S: Questioned>(asked: &Asked<S>, judged: &[Truth<S>], found: &[Nea
             "{near:?}"
         );
         let (apart, most) = S::apart(near.from, near.point);
-        // Anchors are f32, and some metres long, those of half-spaces tens of metres; points lose what f64 has not.
+        // Anchors are f32, and some metres long, those of half-spaces tens of metres; points are rounded to f64.
         let lost = 1e-6 * (near.distance + 20.0) + 4.0 * f64::EPSILON * most;
         assert!(
             near.overlapping || (apart - near.distance).abs() <= error + lost,

@@ -1,4 +1,4 @@
-//! A point as a shape: what it is in, exactly, and how far it is from every kind of shape.
+//! A point as a shape: what it is inside of, exactly, and how far it is from every kind of shape.
 
 use asunder::{Circle, Pair2, Pair3, Pose2, Pose3, Shape2, Shape3, Sphere};
 use asunder_tests::bodies::{Bodies2, Bodies3};
@@ -7,7 +7,7 @@ use asunder_tests::exact_overlap::{exact_overlap2, exact_overlap3};
 use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
 use glam::{DVec2, DVec3};
 
-/// Points of a shape, near it, and some bits beside: corners, points of edges, faces and round surfaces.
+/// Points of a shape, near it, and a few ulps beside it: corners, points of edges, faces and round surfaces.
 fn places(vertices: &[DVec3], support: impl Fn(DVec3) -> Option<DVec3>, random: &mut Random) -> Vec<DVec3> {
     let mut places = vec![];
     for _ in 0..12 {
@@ -99,7 +99,7 @@ fn the_distance_of_a_point_is_right_within_its_error() {
                 continue;
             };
             let miss = (f64::from(closest.distance) - truth).abs();
-            // The judge's own rounding, in f64.
+            // The oracle's own rounding, in f64.
             assert!(miss <= f64::from(closest.error) + 1e-12, "{name}: {closest:?}, true {truth}");
             assert_eq!(closest.anchor_a, glam::Vec3::ZERO, "{name}: a point is where it is");
             assert!(f64::from(closest.error) <= 1e-6 * (truth + 2.0), "{name}: {closest:?}");

@@ -1,10 +1,10 @@
-//! Filters, and an oracle of what they let pass.
+//! Filters, and an oracle for what they let through.
 
 use asunder::{Collider, Filter, Layers, Space};
 use asunder_tests::cases::Random;
 use asunder_tests::engine::slot_of;
 
-/// A filter, and what it lets pass, in words of its own.
+/// A filter, and an independent predicate for what it lets through.
 pub(super) struct Sieve<S: Space> {
     pub(super) filter: Filter<'static, S>,
     pub(super) allowed: Allowed<S>,

@@ -1,4 +1,4 @@
-//! Questions step by step: what a game is told, and when.
+//! Queries step by step: what a game gets, and when.
 
 use asunder::{
     Aabb3, Collider3, Cuboid, Filter2, Filter3, Pose3, Shape3, Sphere, World2, World3,
@@ -53,7 +53,7 @@ fn questions_see_bodies_before_the_next_update() {
     assert_eq!(bodies_at(&world, 5.0), []);
 }
 
-/// A body that leaves its place, and another that takes it, hundreds of times between two updates.
+/// A body that leaves its place and another that takes it, hundreds of times between two updates.
 #[test]
 fn one_body_may_move_any_number_of_times_between_questions() {
     let mut world = World3::new();
@@ -80,7 +80,7 @@ fn equals_go_by_slot() {
     let mut near = vec![];
     world.within(DVec3::ZERO, 9.0, &filter, &mut near);
     assert_eq!(near.iter().map(|near| near.body).collect::<Vec<_>>(), keys);
-    // Whoever moved last is looked at first.
+    // Bodies that moved last are tested first.
     world.set_pose(keys[2], at(-3.0)).unwrap();
     assert_eq!(world.closest(DVec3::ZERO, 9.0, &filter).unwrap().body, keys[0]);
     assert_eq!(world.closest(DVec3::ZERO, 9.0, &filter.without(keys[0])).unwrap().body, keys[1]);

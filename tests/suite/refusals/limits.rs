@@ -1,4 +1,4 @@
-//! Every field of every constructor: what is no number is refused wherever it stands, and so is a hair beyond a limit.
+//! Every field of every constructor: NaN and infinities are rejected anywhere, and so are values just beyond a limit.
 
 use asunder::{Collider2, Collider3, MarginError};
 use asunder_geometry::tolerance::{MAX_POSITION, MAX_RADIUS, MIN_RADIUS};
@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3, Quat, Vec2, Vec3};
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-/// A constructor, by a name, fields that it takes, and what it says of any others.
+/// A constructor: its name, valid fields, and a function that applies it to any others.
 type Constructor = (&'static str, &'static [f64], fn(&[f64]) -> Result<(), String>);
 
 fn told<T, E: Display>(made: Result<T, E>) -> Result<(), String> {
@@ -106,7 +106,7 @@ fn nothing_that_is_no_number_passes_in_any_field() {
                 let mut spoilt = fields.to_vec();
                 spoilt[index] = bad;
                 let message = make(&spoilt).expect_err(&format!("{name} takes {bad} as field {index}"));
-                // Two that say which values are allowed instead, and name the one given.
+                // Two messages say which values are allowed instead, and name the one given.
                 let is_told =
                     ["finite", "check", "NaN", "inf", "-inf"].iter().any(|word| message.contains(word));
                 assert!(is_told, "{name}, field {index}, {bad}: {message}");
@@ -117,7 +117,7 @@ fn nothing_that_is_no_number_passes_in_any_field() {
     assert!(refused > 300, "{refused}");
 }
 
-/// All fields at once, and in pairs with what is merely extreme: whatever is said, nothing panics and nothing passes.
+/// All fields at once, and in pairs with extreme values: nothing panics and nothing invalid passes.
 #[test]
 fn nothing_extreme_panics_and_what_passes_is_within_the_limits() {
     let extremes = [
@@ -167,10 +167,10 @@ fn a_radius_a_hair_beyond_the_limits_is_refused() {
     assert_eq!(Sphere::new(below), Err(RadiusError::TooSmall { value: below }));
     assert_eq!(Circle::new(above), Err(RadiusError::TooLarge { reach: above }));
     assert_eq!(Circle::new(below), Err(RadiusError::TooSmall { value: below }));
-    // Of a rounded core the reach counts: the corner's distance and the radius.
+    // For a rounded core the total reach counts: the corner's distance plus the radius.
     let cube = Cuboid::from_half_extents(Vec3::new(3.0, 4.0, 12.0)).unwrap();
     let most = MAX_RADIUS - 13.0;
-    // The bounding radius is rounded up, so that a hair is lost below the limit, and none won above it.
+    // The bounding radius is rounded up, so that a little is lost below the limit, and nothing gained above it.
     assert!(cube.rounded(most.next_down()).is_ok());
     assert!(
         matches!(cube.rounded(most.next_up()), Err(RadiusError::TooLarge { reach }) if reach > MAX_RADIUS)
@@ -182,7 +182,7 @@ fn a_radius_a_hair_beyond_the_limits_is_refused() {
 #[test]
 fn a_corner_a_hair_beyond_the_limits_is_refused() {
     let far = MAX_RADIUS.next_up();
-    // 3, 4 and 5: corners at exactly the limit, up to which a bounding radius is rounded.
+    // 3-4-5: corners exactly at the limit, up to which a bounding radius is rounded.
     let (rect, cuboid) = (Vec2::new(6e5, 8e5), Vec3::new(6e5, 8e5, 1.0));
     assert!(Rect::from_half_extents(rect - Vec2::splat(0.125)).is_ok());
     for axis in 0..2 {
@@ -207,7 +207,7 @@ fn a_corner_a_hair_beyond_the_limits_is_refused() {
     assert_eq!(polygon(far).unwrap_err(), PolygonError::TooLarge { index: 1 });
     let triangle = Triangle3::new(Vec3::ZERO, Vec3::Y * far, Vec3::X);
     assert_eq!(triangle, Err(VertexError::TooLarge { index: 1 }));
-    // As far on one axis is within reach on two only if the distance is.
+    // Coordinates within the limit are not enough: the distance counts.
     assert_eq!(Segment2::new(Vec2::splat(8e5), Vec2::ZERO), Err(VertexError::TooLarge { index: 0 }));
 }
 

@@ -1,4 +1,4 @@
-//! Ground that bends by a hair: by less than rounding at its size.
+//! Ground that bends by less than rounding at its size.
 
 use asunder::{Collider2, World2};
 use asunder_geometry::{Capsule2, Chain, HalfSpace, Hull, Pose2, Pose3, Shape2, Shape3, TriMesh};
@@ -10,9 +10,9 @@ fn mesh(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
 }
 
-/// Symptom: of a prism that stood on a floor whose vertices are off by 1e-30 to 1e-15 m, the separation was above zero
-/// and the distance not none, though the two overlapped. Cause: triangles no nearer than the nearest so far, but for
-/// its error, were left out even where that one was a hair away and they were touched.
+/// Symptom: for a prism standing on a floor whose vertices are off by 1e-30 to 1e-15 m, the separation was positive and
+/// the distance not `None`, though the two overlapped. Cause: triangles that were no nearer, within the error, than the
+/// nearest so far were skipped, even where that one was a hair away and the skipped ones were touched.
 #[test]
 fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
     let mut random = Random::new(5);
@@ -37,8 +37,8 @@ fn what_touches_one_triangle_and_is_a_hair_off_the_next_is_not_apart() {
     assert!(touched > 1000 && apart > 100, "{touched} {apart}");
 }
 
-/// Symptom: contact points of a half-space and a mesh of two long triangles panicked. Cause: by rounding, a point was
-/// on both sides of the line between two others, and so twice in the way around the patch.
+/// Symptom: the contact of a half-space and a mesh of two long triangles panicked. Cause: by rounding, a point was on
+/// both sides of the line through two others, and so occurred twice in the outline of the patch.
 #[test]
 fn a_corner_on_both_sides_of_a_line_is_one_corner() {
     let corners = [[0.0, 0.0, 0.0], [0.0, 1e6, 1e-7], [1e6, 1e-7, 0.0], [1.0, 0.0, 0.0]].map(Vec3::from);
@@ -54,8 +54,8 @@ fn a_corner_on_both_sides_of_a_line_is_one_corner() {
     }
 }
 
-/// Symptom: a capsule without a margin that was lifted off a chain by a hair was never told to have left it. Cause: by
-/// rounding its points were no further away than the margin of zero, and so it had a contact still.
+/// Symptom: a capsule without a margin that was lifted off a chain by a hair never got its end event. Cause: by
+/// rounding its points were within the margin of zero, and so it still had a contact.
 #[test]
 fn a_hair_above_a_chain_is_off_it() {
     let mut random = Random::new(7);

@@ -1,4 +1,4 @@
-//! Blades and ridges: two faces that are all but back to back, edges that are all but parallel.
+//! Blades and ridges: two faces almost back to back, edges almost parallel.
 
 use asunder_geometry::{Hull, Pose3, Shape3};
 use asunder_narrow::{Answer, Batch3, Hint, Job3, Pair3, Separation3, collide3};
@@ -13,7 +13,7 @@ fn hull(points: &[[f32; 3]]) -> Shape3 {
     Hull::from_points(&points).unwrap().into()
 }
 
-/// The next frame's hint, and whether they overlap.
+/// Returns the hint for the next frame, and whether the two overlap.
 fn collide((shape_a, pose_a): Posed, (shape_b, pose_b): Posed, hint: Hint) -> (Hint, bool) {
     let mut batch = Batch3::default();
     collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }], &mut batch);
@@ -23,8 +23,9 @@ fn collide((shape_a, pose_a): Posed, (shape_b, pose_b): Posed, hint: Hint) -> (H
     }
 }
 
-/// Symptom: a blade in a box was 0.14 m deep, +- 8 nm, and was 0.09. Cause: 1 + cos of the angle between the faces
-/// beside its edge was half as large as its rounding to f32, and the edge was left out before the axes.
+/// Symptom: a blade in a box was reported 0.14 m deep, +- 8 nm, and was 0.09 m deep. Cause: 1 + cos of the angle
+/// between the faces beside its edge was half as large as its rounding to f32, and the edge was discarded before any
+/// axis was tested.
 #[test]
 fn the_edge_of_a_blade_is_not_left_out() {
     let blade = hull(&[
@@ -55,9 +56,9 @@ fn the_edge_of_a_blade_is_not_left_out() {
     }
 }
 
-/// Symptom: two ridges 1e-14 m apart, which cross at 6e-6 rad, overlapped where last frame's hint named their
-/// edges. Cause: the axis of edges at such an angle is beside its place, so that one corner of their parallelogram
-/// showed an overlap, and the others, which did not, were not asked.
+/// Symptom: two ridges 1e-14 m apart, which cross at 6e-6 rad, overlapped if last frame's hint named their edges.
+/// Cause: the cross product of edges at so small an angle is inaccurate. Along it one corner of the parallelogram that
+/// the edges span showed an overlap, and the other corners, which did not, were not tested.
 #[test]
 fn a_hint_of_nearly_parallel_edges_proves_no_overlap() {
     let below = hull(&[
@@ -92,9 +93,9 @@ fn a_hint_of_nearly_parallel_edges_proves_no_overlap() {
     assert!((1..11).contains(&apart), "on both sides: {apart} apart");
 }
 
-/// Symptom: of four contact points one was 0.1 m beside the shape, and deeper than the shapes. Cause: slivers of a
-/// plate a millionth as thick as wide were merged into a face with a dent; it went beyond a side twice, and one
-/// corner was kept.
+/// Symptom: one of four contact points was 0.1 m beside the shape, and deeper than the shapes penetrate. Cause: slivers
+/// of a plate, a millionth as thick as it is wide, were merged into a face that is not convex. Its outline crossed one
+/// side of the other face twice, and one corner beyond that side was kept.
 #[test]
 fn a_dented_face_leaves_no_point_beside_the_other() {
     let rock = hull(&[
@@ -127,7 +128,7 @@ fn a_dented_face_leaves_no_point_beside_the_other() {
     let pair_poses = (here.unwrap(), there.unwrap());
     let pair = Pair3::new(&rock, &pair_poses.0, &plate, &pair_poses.1);
     let manifold = pair.manifold(0.0).unwrap();
-    // Faces count as flat, and axes as equal, up to a few 2.5e-7 of the size.
+    // Faces count as flat, and axes as equally deep, up to a few 2.5e-7 of the size.
     let slack = 2e-6 * pair.size();
     for point in &manifold.points {
         assert!(point.separation >= manifold.separation - slack, "{point:?} of {manifold:?}");

@@ -1,11 +1,11 @@
-//! Shapes that all but touch: the answer was right, and its error bound said nothing.
+//! Shapes that almost touch: the answer was right, and its error bound was too wide to say anything.
 
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
 use asunder_narrow::{Pair3, Separation3};
 use asunder_tests::cases::Random;
 use glam::{DVec3, Vec3};
 
-/// Errors of all that is told of a pair, in metres.
+/// The errors of everything that is reported for a pair, in metres.
 fn errors(pair: &Pair3) -> [f32; 4] {
     let of_manifold = |margin| pair.manifold(margin).map_or(0.0, |manifold| manifold.error);
     let Separation3::Measured(measured) = pair.separation(f32::INFINITY) else {
@@ -15,8 +15,8 @@ fn errors(pair: &Pair3) -> [f32; 4] {
     [measured.error, of_distance, of_manifold(0.0), of_manifold(0.01)]
 }
 
-/// Symptom: of boxes of a metre with a gap below 1e-12 m an error of up to half a metre was told. Cause: where four
-/// corners were around the origin but for rounding, the error was as far as the last step had been from it.
+/// Symptom: boxes of a metre with a gap below 1e-12 m were reported with errors of up to half a metre. Cause: where
+/// four support points enclosed the origin up to rounding, the error was set to the previous step's distance from it.
 #[test]
 fn boxes_that_all_but_touch_are_told_as_well_as_any() {
     let mut random = Random::new(350);
@@ -26,7 +26,7 @@ fn boxes_that_all_but_touch_are_told_as_well_as_any() {
         let halves = [half(), half()];
         let turns = [random.quaternion(), random.quaternion()];
         let [a, b] = turns.map(|turn| Pose3::new(DVec3::ZERO, turn).unwrap());
-        // A face's normal, or one across two edges.
+        // A face normal, or the cross product of two edges.
         let (of_a, of_b) = (a.basis(), b.basis());
         let across = of_a.z.cross(of_b.z).normalize_or(of_a.x);
         let axis = if round % 2 == 0 { of_a.x } else { across };
@@ -59,9 +59,9 @@ fn boxes_that_all_but_touch_are_told_as_well_as_any() {
     assert!(touching > 2000 && apart > 2000, "{touching} touch, {apart} do not");
 }
 
-/// Symptom: of rounded hulls whose vertices are far from their own origin, contact points came with a separation that
-/// was off by up to a centimetre, and an error of 1e-10 m; the separation alone was right. Cause: cores with a gap that
-/// only the radii close were taken for overlapping where no axis of a face showed the gap, as between two edges.
+/// Symptom: for rounded hulls whose vertices are far from their own origin, contact points had a separation that was
+/// off by up to a centimetre, with an error of 1e-10 m; the separation alone was right. Cause: cores whose gap only the
+/// radii close were taken for overlapping if no face normal showed the gap, as where two edges are nearest.
 #[test]
 fn a_gap_that_only_radii_close_is_no_overlap_of_the_cores() {
     let mut random = Random::new(28);

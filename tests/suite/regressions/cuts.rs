@@ -1,12 +1,12 @@
-//! Straight ground that is cut into pieces: where it is cut makes no difference.
+//! Straight ground cut into pieces: where it is cut must make no difference.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{
     Chain, Circle, Collider2, Compound2, Motion2, Pair2, Pose2, Rect, Rotation2, Segment2, Shape2, World2,
 };
 
-/// A chain that sees one side, each straight piece of it cut into so many; mirrored, and numbered so that it sees the
-/// same side.
+/// A one-sided chain, each straight stretch of it cut into `pieces`. The mirrored one is numbered backwards, so that it
+/// faces the same side.
 fn ground(vertices: &[[f32; 2]], pieces: u32, is_mirrored: bool) -> Shape2 {
     let sign = if is_mirrored { -1.0 } else { 1.0 };
     let vertices: Vec<Vec2> = vertices.iter().map(|&[x, y]| Vec2::new(x * sign, y)).collect();
@@ -20,10 +20,10 @@ fn ground(vertices: &[[f32; 2]], pieces: u32, is_mirrored: bool) -> Shape2 {
     Chain::open(cut).unwrap().one_sided().into()
 }
 
-/// Symptom: a ball on an arm that swings up through a floor of one side, and on over it, ran into the floor from which
-/// it had not come out yet; and where in its way, hung on where the floor was cut, and on which end it was numbered
-/// from. Cause: each segment told on its own which side the ball came from. What it had come through was passed, and
-/// the next one, that it came to with its middle above, was met.
+/// Symptom: a ball on an arm that swings up through a one-sided floor from behind, and on above it, had an impact with
+/// the floor before it had come out of it; when depended on where the floor was cut, and from which end it was
+/// numbered. Cause: each segment decided on its own which side the ball came from. The one that the ball had come
+/// through was ignored; the next, which the ball reached with its centre above, was hit.
 #[test]
 fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
     let ball = Shape2::from(Circle::new(0.5).unwrap());
@@ -31,7 +31,7 @@ fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
     for pieces in [1, 2, 3, 8, 64] {
         for sign in [1.0_f32, -1.0] {
             let floor = ground(&[[4.0, 0.0], [-4.0, 0.0]], pieces, sign < 0.0);
-            // Its middle is 0.3 m above the floor at the top, and 1 m below it at either end.
+            // Its centre is 0.3 m above the floor at the top of the swing, and 1 m below it at either end.
             let arm = Pose2::at([2.0 * f64::from(sign), 0.0]).unwrap();
             let body = Shape2::from(Compound2::new([(arm, ball.clone())]).unwrap());
             let from = Pose2::new([0.0, -1.7], turned(0.94, 0.34 * sign)).unwrap();
@@ -41,7 +41,7 @@ fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
             assert_eq!(pair.impact(&swing, &still), None, "{pieces} {sign}");
             let back = Pair2::new(&floor, &Pose2::IDENTITY, &body, &from);
             assert_eq!(back.next_impact(&still, &swing), None, "{pieces} {sign}");
-            // The contacts that it has on the way are those of who is sunk in.
+            // On the way it has contacts, as a body that is sunk in does.
             let top = swing.pose_at(&from, 0.5);
             assert!(Pair2::new(&body, &top, &floor, &Pose2::IDENTITY).overlaps_front());
             let mut world = World2::new();
@@ -50,7 +50,7 @@ fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
             world.set_motion(bullet, swing).unwrap();
             world.update();
             assert!(world.impacts().is_empty(), "{pieces} {sign}");
-            // Half a metre higher it comes out of the floor, and down on it again.
+            // Half a metre higher it comes out of the floor, and down onto it again.
             let higher = from.with_position(DVec2::new(0.0, -1.2)).unwrap();
             let met = Pair2::new(&body, &higher, &floor, &Pose2::IDENTITY).impact(&swing, &still).unwrap();
             let at = swing.pose_at(&higher, met.fraction).transform(DVec2::new(2.0 * f64::from(sign), 0.0));
@@ -59,9 +59,10 @@ fn what_comes_through_a_floor_from_behind_passes_all_of_it() {
     }
 }
 
-/// Symptom: a box that comes up through one slope of a hollow of one side, and turns on into the other, ran into that
-/// one, where each slope was one piece; cut in two, or in eight, it passed until later. Cause: whether what leaves a
-/// face falls back through it was asked of the one segment that was touched, and not of the slope.
+/// Symptom: a box that comes up through one slope of a one-sided hollow, and turns into the other, had an impact with
+/// the second slope where each slope was one piece; with each cut in two, or in eight, the impact came too late. Cause:
+/// whether a body that leaves a face falls back through it was decided for the one segment that was touched, not for
+/// the slope.
 #[test]
 fn what_falls_through_another_piece_of_a_slope_is_met_by_the_slope() {
     let valley = [[4.0, -0.453125], [1.6875, 0.640625], [0.734375, 0.125], [-1.0, 0.828125]];

@@ -1,11 +1,11 @@
-//! Floors that are many times as large as what leaves them.
+//! Floors many times larger than the bodies that leave them.
 
 use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{Capsule3, Cuboid, Hull, Motion3, Pair3, Pose3, Shape3, Sphere, TriMesh};
 
-/// Symptom: a ball 2e-10 m above a cuboid of 1 km that moved away from it was told to meet it at once; so did four of
-/// ten bodies within 1e-10 m of such a floor. Cause: whether they part was asked of one axis, that between the points
-/// that are nearest, which is off by the rounding of the longer lengths over the shorter, and shows an overlap.
+/// Symptom: a ball 2e-10 m above a cuboid of 1 km that moved away from it was reported to hit it at once; so were four
+/// of ten bodies within 1e-10 m of such a floor. Cause: whether they separate was decided on one axis, that between the
+/// closest points. It is off by the rounding of the larger size over the smaller one, and shows an overlap.
 #[test]
 fn what_leaves_a_large_floor_does_not_meet_it() {
     let half = 500.0_f32;
@@ -38,7 +38,7 @@ fn what_leaves_a_large_floor_does_not_meet_it() {
                         let motion = Motion3::shift(way).unwrap();
                         let told = [pair.cast(way.as_vec3()), pair.impact(&motion, &Motion3::STILL)];
                         assert_eq!(told, [None; 2], "{gap} m above {floor:?}, {up}: {body:?}");
-                        // And what goes into it meets it.
+                        // A body that moves into it does hit it.
                         let down = base.turn(DVec3::new(0.08, -up, 0.02)).as_vec3();
                         assert!(pair.cast(down).is_some_and(|met| met.fraction < 1e-3), "{gap} {body:?}");
                     }

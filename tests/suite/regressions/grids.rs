@@ -1,11 +1,11 @@
-//! Boxes on a grid, as level editors lay them: flush with each other along one axis or two.
+//! Boxes on a grid, as level editors place them: flush with each other along one axis or two.
 
 use asunder::{Collider3, Contact3, Pose3, World3};
 use asunder_geometry::Cuboid;
 use asunder_geometry::glam::IVec3;
 use asunder_tests::cases::Random;
 
-/// Two boxes, in quarters of a metre: half extents of both, and the second's place.
+/// Two boxes: half extents of both, and the position of the second; in quarters of a metre.
 struct Boxes {
     halves: [IVec3; 2],
     offset: IVec3,
@@ -24,7 +24,7 @@ impl Boxes {
         (self.offset.abs() - self.halves[0] - self.halves[1]).max(IVec3::ZERO).length_squared()
     }
 
-    /// Their contact in a world, one of them with so many quarters of a metre as its margin.
+    /// Calls `ask` with their contact in a world where one has the margin, in quarters of a metre.
     fn contact<R>(&self, margin: i32, is_sensor: bool, ask: impl FnOnce(Option<&Contact3>) -> R) -> R {
         let body = |half: IVec3, at: IVec3| {
             let cuboid = Cuboid::from_half_extents(half.as_vec3() * 0.25).unwrap();
@@ -39,9 +39,9 @@ impl Boxes {
     }
 }
 
-/// Symptom: the contact of a sensor and a box that are flush with each other was there beyond both margins, up to 1.41
-/// of them away, and went on when it had ended. Cause: the share of an edge that runs along the side of a face, on
-/// its very line, is no number, and had the edge count as within the face's other sides, too.
+/// Symptom: a sensor had a contact with a box flush with it that lay beyond both margins, up to 1.41 times as far, and
+/// kept it after it should have ended. Cause: for an edge that runs exactly along the line of a face's side the clip
+/// fraction is NaN, and with it the edge counted as inside the other sides of the face, too.
 #[test]
 fn a_sensor_sees_boxes_on_a_grid_within_its_margin_and_no_further() {
     let story = Boxes { halves: [IVec3::splat(4); 2], offset: IVec3::new(12, 0, 13) };
@@ -55,7 +55,7 @@ fn a_sensor_sees_boxes_on_a_grid_within_its_margin_and_no_further() {
         for is_sensor in [true, false] {
             let what = || format!("{case}: {:?} and {}, of {margin}", boxes.halves, boxes.offset);
             boxes.contact(margin, is_sensor, |contact| {
-                // At the margin itself either may be said.
+                // At exactly the margin either answer is allowed.
                 assert!(squared == limit || contact.is_some() == (squared < limit), "{}", what());
                 assert_eq!(contact.is_some_and(|contact| contact.overlapping), squared == 0, "{}", what());
                 let told = contact.and_then(|contact| contact.manifolds.first());

@@ -1,10 +1,10 @@
-//! Hooks that go wrong.
+//! Hooks that panic.
 
 use asunder::{Collider3, Event3, Hooks3, Meeting3, Motion3, Pose3, Side3, Sphere, Stats, World3};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Symptom: after a contact hook panicked, `contacts()` panicked too, and whoever had begun to touch was never
-/// reported. Cause: the hook's lists were cut short in place, and the report came after it.
+/// Symptom: after a contact hook panicked, `contacts()` panicked too, and pairs that had begun to touch were never
+/// reported. Cause: the lists passed to the hook were truncated in place, and the report stage came after it.
 #[test]
 fn a_hook_that_panics_loses_no_event_and_no_contact() {
     let mut world = World3::new();
@@ -26,8 +26,8 @@ fn a_hook_that_panics_loses_no_event_and_no_contact() {
     assert!(world.events().is_empty() && world.contacts().all(|contact| contact.manifolds.len() == 1));
 }
 
-/// Symptom: after a hook panicked, `impacts()` were those of the update before. Cause: they were cleared by the stage
-/// that makes them.
+/// Symptom: after a hook panicked, `impacts()` still had those of the previous update. Cause: they were cleared by the
+/// stage that fills them.
 #[test]
 fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
     let mut world = World3::new();
@@ -44,8 +44,8 @@ fn a_hook_that_panics_leaves_no_impact_of_the_update_before() {
     assert!(world.impacts().is_empty());
 }
 
-/// Symptom: a world that was saved after a hook panicked forgot what its motions bring. Cause: boxes were restored
-/// where bodies stand, and those of kept motions are made once.
+/// Symptom: a world that was saved after a hook panicked forgot the effects of its pending motions. Cause: restoring
+/// made AABBs at the bodies' poses only, and those that include a kept motion are made once.
 #[test]
 fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
     let pair = |_: Side3<'_>, _: Side3<'_>| panic!("a game's own mistake");
@@ -67,9 +67,9 @@ fn a_world_saved_after_a_hook_panicked_keeps_what_its_motions_bring() {
     }
 }
 
-/// Symptom: after a pair hook panicked, events were those of the update before, so that a game handled them twice, and
-/// contacts were new twice; counts were none, with candidates and contacts there. Cause: all of them were left to the
-/// stages after the hook.
+/// Symptom: after a pair hook panicked, events were those of the previous update, so that a game handled them twice,
+/// and contacts were reported as new twice; counts were zero though there were candidates and contacts. Cause: all of
+/// these were left to the stages after the hook.
 #[test]
 fn a_pair_hook_that_panics_tells_nothing_twice_and_loses_nothing() {
     let mut world = World3::new();
@@ -78,12 +78,12 @@ fn a_pair_hook_that_panics_tells_nothing_twice_and_loses_nothing() {
     let [_, parts, comes] = [0.0, 0.75, 9.0].map(|x| world.insert(ball.clone().at(at(x))));
     world.update();
     assert_eq!((world.events().len(), world.contacts().filter(|contact| contact.is_new).count()), (1, 1));
-    // One parts and another comes, in an update that dies: twice.
+    // One body leaves and another arrives in an update that panics; twice.
     let fails = |_: Side3<'_>, _: Side3<'_>| panic!("a game's own mistake");
     for x in [-5.0, -0.5] {
         world.set_pose(parts, at(5.0)).unwrap();
         world.set_pose(comes, at(x)).unwrap();
-        // A pair that is there to be asked about in any case.
+        // A pair for which the hook is called in any case.
         let [one, other] = [20.0, 20.5].map(|x| world.insert(ball.clone().at(at(x))));
         assert!(catch_unwind(AssertUnwindSafe(|| world.update_with(&Hooks3::new().pair(&fails)))).is_err());
         assert!(world.events().is_empty() && world.contacts().all(|contact| !contact.is_new));

@@ -1,10 +1,10 @@
-//! Sheets that are drawn from both sides, as leaves and fences are: every triangle, and once more wound the other way.
+//! Sheets drawn from both sides, as leaves and fences are: every triangle occurs twice, with opposite winding.
 
 use asunder::{Capsule3, Cuboid, Hull, Manifold3, Pair3, Pose3, Ray3, Shape3, Sphere, TriMesh, cast_ray3};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_tests::cases::Random;
 
-/// A fence in the plane z = 0, once with two sides, and once with one and all its triangles' backs.
+/// A fence in the plane z = 0: once two-sided, and once one-sided with every triangle doubled, wound the other way.
 fn fences() -> [Shape3; 2] {
     let (columns, rows) = (6, 3);
     let place = |number: u32| {
@@ -34,8 +34,8 @@ fn body(number: usize) -> Shape3 {
     }
 }
 
-/// Symptom: a fence whose triangles were all there twice, one for each side, let everything through from behind once it
-/// was made one-sided. Cause: of two triangles with the same vertices the second was dropped, whichever way it wound.
+/// Symptom: a fence whose triangles all occurred twice, once for each side, let everything through from behind once it
+/// was made one-sided. Cause: of two triangles with the same vertices the second was dropped, whatever its winding.
 #[test]
 fn a_sheet_drawn_from_both_sides_stands_in_the_way_of_both() {
     let fences = fences();

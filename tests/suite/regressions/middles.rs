@@ -1,4 +1,4 @@
-//! Shapes whose middle lies beside them: an f32 rounds it.
+//! Shapes whose centre, rounded to f32, lies outside them.
 
 use asunder_geometry::{Capsule2, Circle, Polygon, Pose2, Segment2, Shape2};
 use asunder_narrow::{Pair2, Separation2};
@@ -6,9 +6,9 @@ use asunder_tests::cases::Random;
 use asunder_tests::exact_overlap::exact_overlap2;
 use glam::{DVec2, Vec2};
 
-/// Symptom: `overlaps` of a capsule and a circle was yes across a gap of 1e-5 m, and no query agreed with the world.
-/// Cause: a circle of the capsule's radius about its middle was taken to lie inside; of a capsule a hundred metres from
-/// its own origin, the middle is rounded by 4e-6 m.
+/// Symptom: `overlaps` of a capsule and a circle returned true across a gap of 1e-5 m, and no query agreed with the
+/// world. Cause: a circle of the capsule's radius about its centre was taken to lie inside it; for a capsule a hundred
+/// metres from its own origin, the centre is rounded by 4e-6 m.
 #[test]
 fn a_capsule_that_lies_far_from_its_origin_is_not_met_beside_it() {
     let mut random = Random::new(1127);
@@ -25,7 +25,7 @@ fn a_capsule_that_lies_far_from_its_origin_is_not_met_beside_it() {
         let (shape, thick): (Shape2, f64) =
             if round % 5 == 0 { (segment.into(), 0.0) } else { (capsule.into(), radius.into()) };
         let ball: Shape2 = Circle::new(radius).unwrap().into();
-        // Beside the true middle, closer to touching than that is rounded.
+        // Beside the true centre, closer to touching than the centre's rounding.
         let middle = (from.as_dvec2() + to.as_dvec2()) * 0.5;
         let side = (to - from).as_dvec2().perp().normalize();
         let gap = random.signed() * 2e-8 * far;
@@ -41,8 +41,8 @@ fn a_capsule_that_lies_far_from_its_origin_is_not_met_beside_it() {
     assert!(apart > 10_000 && touching > 10_000, "{apart}, {touching}");
 }
 
-/// Symptom: the same of a rounded sliver. Cause: where the centre lay outside, the circle inside was taken to be as
-/// large as the rounding.
+/// Symptom: the same for a rounded sliver. Cause: where the centre lay outside, the inscribed circle was given the size
+/// of the rounding.
 #[test]
 fn a_rounded_sliver_is_not_met_beside_it() {
     let ulp = 8.0 * f32::EPSILON;
@@ -58,7 +58,7 @@ fn a_rounded_sliver_is_not_met_beside_it() {
         let (center, inner) = (sliver.center().as_dvec2(), f64::from(sliver.inner_radius()));
         assert!(inner < 0.01 || !is_beside, "{sliver:?}");
         for way in 0..16 {
-            // Eighths of a turn and between, by halves of the sum.
+            // Eighths of a turn, and the directions between as sums of two neighbours.
             let ring = [DVec2::X, DVec2::ONE, DVec2::Y, DVec2::new(-1.0, 1.0)];
             let way = (ring[way % 4] + ring[(way + 1) % 4] * f64::from(u8::from(way > 7))).normalize()
                 * if way / 4 % 2 == 0 { 1.0 } else { -1.0 };

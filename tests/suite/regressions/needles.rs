@@ -1,4 +1,4 @@
-//! Needles and knife edges: where a normal is the small difference of large numbers.
+//! Needles and knife edges: shapes where a normal is the small difference of large numbers.
 
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3, TriMesh, Triangle3};
 use asunder_narrow::{Pair3, Separation3};
@@ -15,7 +15,7 @@ fn pose(place: [u64; 3], turn: [u32; 4]) -> Pose3 {
     Pose3::new(place.map(f64::from_bits), Quat::from_array(turn.map(f32::from_bits))).unwrap()
 }
 
-/// The decision exact, every answer with it, and the separation within its error.
+/// Asserts that the overlap decision is exact, every answer agrees with it, and the separation is within its error.
 fn holds(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) {
     let pair = Pair3::new(a.0, a.1, b.0, b.1);
     let overlaps = exact_overlap3(a, b);
@@ -29,8 +29,9 @@ fn holds(a: (&Shape3, &Pose3), b: (&Shape3, &Pose3)) {
     assert!(miss <= f64::from(found.error) + truth.bound, "{found:?}, true {}", truth.separation);
 }
 
-/// Symptom: `overlaps` said apart, and `distance` and `manifold` that they touch. Cause: the normal of a triangle 1e-7
-/// times as wide as long was a plain cross product, off by a million roundings, and its depth was believed.
+/// Symptom: `overlaps` returned false, while `distance` and `manifold` reported an overlap. Cause: the normal of a
+/// triangle 1e-7 times as wide as long was a plain cross product, off by a million roundings, and the depth along it
+/// was trusted.
 #[test]
 fn a_needle_of_a_triangle_has_one_answer() {
     let a: Shape3 = Triangle3::new(
@@ -50,9 +51,9 @@ fn a_needle_of_a_triangle_has_one_answer() {
     holds((&b, &there), (&a, &Pose3::IDENTITY));
 }
 
-/// Symptom: a needle in a triangle was 1.5 mm deep, +- 0.2 um, and touched. Cause: the middle of the arc between two
-/// faces that were all but back to back was taken from the sum of their normals, which was rounding, and the edge pair
-/// that mattered was left out.
+/// Symptom: a needle in a triangle was reported 1.5 mm deep, +- 0.2 um, and only touched. Cause: the middle of the arc
+/// between two faces almost back to back was taken from the sum of their normals, which was rounding noise, and the
+/// edge pair that mattered was culled.
 #[test]
 fn a_knife_edge_keeps_its_edge_pairs() {
     let needle = Hull::of_any_dimension(&[
@@ -79,7 +80,7 @@ fn a_knife_edge_keeps_its_edge_pairs() {
     holds((&triangle, &there), (&needle, &here));
 }
 
-/// Symptom: a needle stood 3.8 um deep in a cube, +- 8 nm, and touched. Cause: as above.
+/// Symptom: a needle was reported 3.8 um deep in a cube, +- 8 nm, and only touched. Cause: as above.
 #[test]
 fn a_needle_beside_a_cube_keeps_its_edge_pairs() {
     let needle = Hull::of_any_dimension(&[
@@ -104,8 +105,9 @@ fn a_needle_beside_a_cube_keeps_its_edge_pairs() {
     holds((&cuboid, &there), (&needle, &here));
 }
 
-/// Symptom: two plates, one rounded by 1e-10 m, with 9e-14 m between their cores: the depth was 2.6 times its error
-/// off. Cause: shapes that overlap were taken for cores that do, and the gap between those was cut to nothing.
+/// Symptom: for two plates, one rounded by 1e-10 m, with 9e-14 m between their cores, the depth was off by 2.6 times
+/// its error. Cause: shapes that overlap were taken to have cores that overlap, and the gap between the cores was
+/// clamped to 0.
 #[test]
 fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     let [y, z] = [0x34b8_0cca, 0x3642_9cf0].map(f32::from_bits);
@@ -122,9 +124,9 @@ fn rounded_shapes_may_overlap_where_their_cores_do_not() {
     holds((&b, &there), (&a, &here));
 }
 
-/// Symptom: two plates, 2e-6 m thick and 4e-17 m apart, edge to edge: `distance` said 1.35e-6 m, within an error as
-/// large; a millionth of their size. Cause: the distance iteration stood on a pair of corners, the next was far away,
-/// and the step there was smaller than what that corner's place rounded.
+/// Symptom: for two plates, 2e-6 m thick and 4e-17 m apart, edge to edge, `distance` was 1.35e-6 m with an error as
+/// large, a millionth of their size. Cause: the simplex of the distance iteration was one pair of corners and the next
+/// support point was far away; the step towards it was smaller than the rounding of that corner's position.
 #[test]
 fn a_small_step_towards_a_far_corner_is_one() {
     let plate = |x: f32, z: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(x, 1e-6, z)).unwrap());
@@ -141,8 +143,8 @@ fn a_small_step_towards_a_far_corner_is_one() {
     }
 }
 
-/// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that had been rounded
-/// down, and the margin was held against what it was rounded from.
+/// Symptom: no manifold within a margin that was exactly the reported separation. Cause: that number had been rounded
+/// down to f32, and the margin was compared with the unrounded one.
 #[test]
 fn what_is_reported_within_the_margin_has_a_manifold() {
     let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();
@@ -160,9 +162,10 @@ fn what_is_reported_within_the_margin_has_a_manifold() {
     assert!(rounded_down > 50, "{rounded_down}");
 }
 
-/// Symptom: of boxes beside the rim of one-sided ground, within the margin, nothing was told where the triangle there is
-/// longer than some thousand times its width. Cause: the way from the rim to the box was level to both long sides, and
-/// so given by neither; two-sided ground keeps such ways, one-sided ground did only where they lead up.
+/// Symptom: boxes beside the rim of one-sided ground, within the margin, got no contact if the triangle there is longer
+/// than some thousand times its width. Cause: the direction from the rim to the box was perpendicular, within
+/// tolerance, to both long sides, and so accepted for neither; two-sided ground keeps such directions, one-sided ground
+/// did so only where they lead up.
 #[test]
 fn the_rim_of_a_needle_with_one_side_is_there() {
     let mut random = Random::new(0x4EED);

@@ -1,4 +1,4 @@
-//! What engines are known to get wrong: each a story, and our answer to it against exact arithmetic.
+//! Cases that physics engines are known to get wrong: the story of each, and our answer against exact arithmetic.
 
 mod floors;
 
@@ -20,7 +20,7 @@ fn turned(place: DVec3, x: f32, y: f32, z: f32, w: f32) -> Pose3 {
 
 type Posed<'a> = (&'a Shape3, &'a Pose3);
 
-/// Asks for all that a pair says, and holds it against exact arithmetic and double-double.
+/// Checks everything that is reported for a pair against exact arithmetic and double-double.
 fn judged(a: Posed, b: Posed) -> Measured3 {
     let pair = Pair3::new(a.0, a.1, b.0, b.1);
     let exact = exact_overlap3(a, b);
@@ -39,10 +39,10 @@ fn judged(a: Posed, b: Posed) -> Measured3 {
     found
 }
 
-/// Symptom: two crates spawned in one place flew off along a diagonal, by NaN, or not at all. Cause: an iteration
-/// between their centres starts with a vector of length zero, and all that touches its way out of a simplex around
-/// the origin is a tie. parry3d 0.31, of two hulls with the corners of one cube: depth 0 m at half a metre, none at
-/// a millimetre, and 0.44 mm of 2 mm when both are turned.
+/// Symptom: two crates spawned in one place flew off along a diagonal, by NaN, or not at all. Cause: an iteration that
+/// starts from the difference of their centres starts with a zero vector, and on the way out of a simplex around the
+/// origin every choice is a tie. parry3d 0.31, for two hulls with the corners of one cube: depth 0 m at half a metre,
+/// no contact at a millimetre, and 0.44 mm instead of 2 mm when both are turned.
 #[test]
 fn identical_cubes_in_one_pose_are_as_deep_as_they_are_wide() {
     for half in [1e-5_f32, 0.001, 0.5, 3e4] {
@@ -59,9 +59,9 @@ fn identical_cubes_in_one_pose_are_as_deep_as_they_are_wide() {
     }
 }
 
-/// Symptom: pebbles of 2 mm hung in the air around each other. Cause: tolerances in metres (a skin of 1 mm, an
-/// epsilon of 1e-4 m) that are nothing beside a crate and everything beside a pebble. parry3d 0.31, of hulls: those
-/// of 1 mm touch across a thousandth of it, those of 0.01 mm across a tenth.
+/// Symptom: pebbles of 2 mm hung in the air around each other. Cause: tolerances in metres (a skin of 1 mm, an epsilon
+/// of 1e-4 m) that are negligible for a crate and huge for a pebble. parry3d 0.31, for hulls: those of 1 mm touch
+/// across a gap of a thousandth of that, those of 0.01 mm across a tenth.
 #[test]
 fn small_cubes_with_a_small_gap_are_apart() {
     let half = 1e-3_f32;
@@ -80,8 +80,8 @@ fn small_cubes_with_a_small_gap_are_apart() {
     }
 }
 
-/// Symptom: crossed planks jumped apart, the wrong way. Cause: the cross product of edges that are all but parallel is
-/// rounding made unit length, and an axis of it seemed to part them best. parry3d 0.31, of hulls 1e-5 rad from
+/// Symptom: crossed planks jumped apart, in the wrong direction. Cause: the cross product of almost parallel edges is
+/// normalised rounding noise, and it seemed to be the best separating axis. parry3d 0.31, for hulls 1e-5 rad from
 /// parallel and 1e-6 m deep: they intersect, with a contact 4e-7 m apart.
 #[test]
 fn edges_a_millionth_from_parallel_give_no_axis_of_noise() {
@@ -98,7 +98,7 @@ fn edges_a_millionth_from_parallel_give_no_axis_of_noise() {
             let there = turned(place, half * sin, half * cos, sin, cos);
             let found = judged((&plank, &ridge), (&plank, &there));
             overlapping += usize::from(found.separation <= 0.0);
-            // Apart or barely sunk they see each other across the ridges, and never along them.
+            // Apart or slightly sunk in, the axis is across the ridges, and never along them.
             assert!(found.normal.z.abs() < 1e-3, "{angle} rad, gap {gap}: {found:?}");
             let beside = turned(DVec3::new(1.0 + gap, 0.25, 0.3), half, 0.0, 0.0, 1.0);
             let found = judged((&plank, &Pose3::IDENTITY), (&plank, &beside));
@@ -108,9 +108,8 @@ fn edges_a_millionth_from_parallel_give_no_axis_of_noise() {
     assert!((8..=20).contains(&overlapping), "{overlapping} of 24");
 }
 
-/// Symptom: bricks laid side by side touched or not by where the wall stood. Cause: f32 positions, and an overlap
-/// that is decided with a tolerance. parry3d 0.31, a unit in the last place of f32 apart: the gap's normal is (1 -1
-/// -2) / sqrt 6.
+/// Symptom: whether bricks laid side by side touched depended on where the wall stood. Cause: f32 positions, and an
+/// overlap test with a tolerance. parry3d 0.31, with a gap of one f32 ulp: its normal is (1 -1 -2) / sqrt 6.
 #[test]
 fn kissing_boxes_touch_and_a_unit_in_the_last_place_parts_them() {
     let brick = cuboid(0.5, 0.25, 0.125);
@@ -129,9 +128,9 @@ fn kissing_boxes_touch_and_a_unit_in_the_last_place_parts_them() {
     }
 }
 
-/// Symptom: a floorboard of 128 to 1 let crates through near its ends. Cause: tolerances relative to its length,
-/// which are wide beside its thickness, and an expanding polytope that ran out of iterations. parry3d 0.31, of two
-/// boards crossing 1 mm apart: a distance of 26 m, and as hulls they intersect.
+/// Symptom: a floorboard of 128 to 1 let crates through near its ends. Cause: tolerances relative to its length, which
+/// are large compared with its thickness, and an EPA (expanding polytope) that ran out of iterations. parry3d 0.31, for
+/// two boards that cross 1 mm apart: a distance of 26 m, and as hulls they intersect.
 #[test]
 fn boxes_of_128_to_1_are_as_good_as_cubes() {
     let board = cuboid(64.0, 0.5, 0.5);
@@ -150,8 +149,8 @@ fn boxes_of_128_to_1_are_as_good_as_cubes() {
     assert!((30..70).contains(&overlapping), "{overlapping} of 80");
 }
 
-/// Symptom: a hull that came from a subdivided mesh was apart from what it stood in. Cause: several support points
-/// on one line or plane make a flat simplex, whose normal is rounding.
+/// Symptom: a hull built from a subdivided mesh was reported apart from what it stood in. Cause: several collinear or
+/// coplanar support points make a flat simplex, whose normal is rounding noise.
 #[test]
 fn support_points_on_a_line_make_no_flat_simplex() {
     let circle: Vec<Vec2> =
@@ -161,7 +160,7 @@ fn support_points_on_a_line_make_no_flat_simplex() {
             .map(|(x, y)| Vec2::new(x, y) * 0.125)
             .collect();
     let drum = prism(&circle, 0.5);
-    // A cube whose faces are grids: all but its corners lie on edges and faces.
+    // A cube whose faces are grids of points: all but its corners lie on edges and faces.
     let grid: Vec<[f32; 3]> = (0..125)
         .map(|i| [i % 5, i / 5 % 5, i / 25].map(|c| 0.25 * c as f32 - 0.5))
         .filter(|p| p.iter().any(|c| c.abs() == 0.5))
@@ -173,7 +172,7 @@ fn support_points_on_a_line_make_no_flat_simplex() {
             for gap in [-0.5, -1e-3, -1e-9, -2e-16, 0.0, 3e-16, 1e-9, 1e-3] {
                 let there = turned(DVec3::new(0.125, -0.25, 1.0 + gap), spin[0], spin[1], spin[2], spin[3]);
                 let found = judged((a, &Pose3::IDENTITY), (b, &there));
-                // Caps at z = 1/2 whatever the spin about z, and B's position is exact: so is the gap.
+                // The caps are at z = 1/2 whatever the spin about z, and B's position is exact: so is the gap.
                 assert_eq!(found.separation <= 0.0, gap <= 0.0, "gap {gap}: {found:?}");
                 touching += usize::from(gap == 0.0 && found.separation == 0.0);
             }
@@ -182,8 +181,8 @@ fn support_points_on_a_line_make_no_flat_simplex() {
     assert_eq!(touching, 12);
 }
 
-/// Symptom: a tile balanced on the edge of a step slid through it. Cause: where a corner meets an edge, face
-/// normals, edge pairs and corners all tie, and each was left to another.
+/// Symptom: a tile balanced on the edge of a step slid through it. Cause: where a corner meets an edge, face normals,
+/// edge pairs and corners all tie, and each case was left to another.
 #[test]
 fn a_corner_on_an_edge_touches_it() {
     let step = cuboid(3.0, 3.0, 3.0);
@@ -194,7 +193,8 @@ fn a_corner_on_an_edge_touches_it() {
         (axes[0] * signs[0] + axes[1] * signs[1] + axes[2] * signs[2]).to_array()
     });
     let tile = hull(&corners.collect::<Vec<_>>());
-    // The corner -(5 1 1) is alone the lowest along (2 1 0), and so is the edge x = y = 3 the highest.
+    // The corner -(5 1 1) is the only support point of the tile along -(2 1 0), and the edge x = y = 3 that of the step
+    // along (2 1 0).
     for origin in [DVec3::ZERO, DVec3::new(1e6, -2e5, 12.0)] {
         let here = Pose3::at(origin).unwrap();
         for height in [-2.5, 0.5, 3.0] {

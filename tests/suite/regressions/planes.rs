@@ -1,13 +1,13 @@
-//! Half-spaces that went wrong.
+//! Bugs with half-spaces.
 
 use asunder::glam::Vec3;
 use asunder::{Collider3, HalfSpace, Pair3, Pose3, Shape3, TriMesh, World3};
 use asunder_tests::cases::Random;
 
-/// Symptom: a tilted level that touched a half-space with one corner, and nothing else, had a contact without place
-/// and with an infinite error; a save of that world as JSON could not be loaded. Cause: exact arithmetic said that they
-/// touch, rounding put the corner 1e-16 m outside, and in the place of the point that was missing came the half-space's
-/// lowest vertex, of which it has none.
+/// Symptom: a tilted level that touched a half-space with one corner only had a contact without a place and with an
+/// infinite error; a save of that world as JSON could not be loaded. Cause: exact arithmetic decided that they touch,
+/// rounding put the corner 1e-16 m outside, and the half-space's support vertex, which it does not have, took the place
+/// of the missing point.
 #[test]
 fn ground_that_touches_a_half_space_with_one_corner_is_told_that_corner() {
     let sheet = TriMesh::new(vec![Vec3::ZERO, Vec3::Z, Vec3::X], vec![[0, 1, 2]]).unwrap();
@@ -16,7 +16,7 @@ fn ground_that_touches_a_half_space_with_one_corner_is_told_that_corner() {
     let below = Pose3::at([1.0, 0.0, 1.0]).unwrap();
     let (mut random, mut touching) = (Random::new(214), 0);
     for turn in 0..500 {
-        // The corner at its origin is in the plane, bit for bit; the others are above it, or below.
+        // The corner at the mesh's origin is in the plane, bit for bit; the others are above or below it.
         let tilted = Pose3::new([0.5, 0.0, 3.0], random.quaternion()).unwrap();
         let is_alone = [Vec3::X, Vec3::Z].iter().all(|corner| tilted.transform(corner.as_dvec3()).y > 1e-3);
         for is_swapped in [false, true] {

@@ -1,4 +1,4 @@
-//! Contact points beside the shapes: the depth and the normal were right, and the place was not.
+//! Contact points beside the shapes: depth and normal were right, and the position was not.
 
 use asunder_geometry::{Hull, Pose3, Shape3};
 use asunder_narrow::Pair3;
@@ -12,7 +12,7 @@ fn hull(points: &[DVec3]) -> Shape3 {
     Hull::from_points(&points).unwrap().into()
 }
 
-/// How far a point, in metres from a shape's position, lies beyond the shape.
+/// How far outside the shape a point lies; it is relative to the shape's position, in metres.
 fn beyond((shape, pose): Posed, anchor: Vec3) -> f64 {
     let (core, place) = (shape.core(), pose.turn_back(anchor.as_dvec3()));
     let over = |face: usize| {
@@ -22,8 +22,8 @@ fn beyond((shape, pose): Posed, anchor: Vec3) -> f64 {
     (0..core.normals().len()).map(over).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The points of shapes that touch lie on both, and over each other along the normal. Faces count as flat, and axes and
-/// features as equally deep, up to a few 5e-7 of the size; anchors are of f32.
+/// Asserts that both ends of each contact point lie on their shapes, and in line along the normal. Faces count as flat,
+/// and axes and features as equally deep, up to a few 5e-7 of the size; anchors are f32.
 fn points_are_on_both(a: Posed, b: Posed, story: &str) -> usize {
     let pair = Pair3::new(a.0, a.1, b.0, b.1);
     let manifold = pair.manifold(0.0).unwrap();
@@ -40,8 +40,8 @@ fn points_are_on_both(a: Posed, b: Posed, story: &str) -> usize {
     manifold.points.len()
 }
 
-/// Symptom: two edges touched in two places 0.4 m apart. Cause: of a lattice' hull, turned and rounded, an edge has
-/// a corner in its middle, or a neighbour in one plane with it; several edges supported the axis, and rounding
+/// Symptom: two edges touched in two places 0.4 m apart. Cause: in the hull of a lattice, rotated and rounded, an edge
+/// may have a corner in its middle, or a neighbour coplanar with it. Several edges supported the axis, and rounding
 /// picked one that the other shape's edge did not cross.
 #[test]
 fn edges_with_a_corner_in_the_middle_touch_where_they_cross() {
@@ -63,9 +63,9 @@ fn edges_with_a_corner_in_the_middle_touch_where_they_cross() {
     assert!(met > 2000, "only {met} points");
 }
 
-/// Symptom: two boxes of 20 km, 12 km off each other, touched in a corner that the lower one was not under. Cause:
-/// their lids were triangles tilted by 3e-7, a hair too much for one face; one of them was cut by one of the
-/// other's, and those two shared nothing.
+/// Symptom: two boxes of 20 km, offset by 12 km, touched at a corner that was not above the lower one. Cause: their
+/// lids were triangles tilted by 3e-7, a hair too much to be merged into one face; one triangle was clipped against one
+/// of the other's, and those two did not overlap at all.
 #[test]
 fn boxes_with_uneven_lids_touch_where_both_are() {
     let mut random = Random::new(5);
@@ -95,8 +95,8 @@ fn boxes_with_uneven_lids_touch_where_both_are() {
 }
 
 /// Symptom: a contact point lay 100 m beyond the tip of a needle of 14 km, and was 5 cm nearer than the shapes are.
-/// Cause: the lines of the needle's sides part by less than the clipper's slack long past its tip, so that the
-/// other shape's corner there was kept.
+/// Cause: even far beyond the tip, where the lines of the needle's sides have crossed, a point is within the clipper's
+/// tolerance of both, so that the other shape's corner there was kept.
 #[test]
 fn a_needle_has_no_contact_beyond_its_tip() {
     let corners = [
@@ -120,7 +120,7 @@ fn a_needle_has_no_contact_beyond_its_tip() {
             there.turn_back(point.anchor_b.as_dvec3() + inwards),
         ];
         for core in cores {
-            // A few metres for what the surface leans off the normal; the needle is 13.7 km long.
+            // A few metres because the surface is not square to the normal; the needle is 13.7 km long.
             assert!((-6965.0..6765.0).contains(&core.x), "{core} in {manifold:?}");
         }
     }

@@ -1,12 +1,12 @@
-//! Rays that went wrong.
+//! Bugs with rays.
 
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder::{
     Compound2, Compound3, Cuboid, Hull, Pose2, Pose3, Ray2, Ray3, Rect, Shape2, Shape3, cast_ray2, cast_ray3,
 };
 
-/// Symptom: a ray that starts in one part of a compound, a rounding before the face of another, was not inside. Cause:
-/// both were at distance 0, and of equals the first part counted.
+/// Symptom: a ray that starts inside one part of a compound, a rounding before the face of another, was reported to
+/// start outside. Cause: both hits were at distance 0, and of equal hits the first part won.
 #[test]
 fn a_ray_that_starts_in_any_part_starts_inside() {
     let bar = |half: f32| Shape3::from(Cuboid::from_half_extents(Vec3::new(half, 1.0, 1.0)).unwrap());
@@ -26,9 +26,9 @@ fn a_ray_that_starts_in_any_part_starts_inside() {
     }
 }
 
-/// Symptom: what rays tell of rounded hulls did not go with the unit of length: at a body of two micrometres the error
-/// was a fifth larger than its share of what it is at one of a metre. Cause: the ray's origin, as a shape, was a hull of
-/// one vertex, which counts as a micrometre in radius, and that was added to the size of every pair.
+/// Symptom: ray casts against rounded hulls did not scale with the unit of length: for a body of two micrometres the
+/// error was, relative to its size, a fifth larger than for one of a metre. Cause: the ray's origin, as a shape, was a
+/// hull of one vertex, whose radius counts as a micrometre, and that was added to the size of every pair.
 #[test]
 fn a_rays_origin_has_no_size() {
     let corners = [

@@ -1,4 +1,4 @@
-//! Bodies that lie over ridges: what they are told of the slope on the other side.
+//! Bodies that lie across ridges: contacts with the slope on the other side.
 
 use asunder::{
     Capsule3, Collider3, Cuboid, Filter3, Hull, Manifold3, Pair3, Pose3, Shape3, TriMesh, Triangle3, World3,
@@ -7,9 +7,10 @@ use asunder_geometry::glam::{Quat, Vec2, Vec3};
 use asunder_geometry::{Ground, HeightField};
 use asunder_tests::cases::Random;
 
-/// Symptom: a plank that touches one slope of a roof was told to be 0.18 m deep in the other, which is 6 cm away, and
-/// `depenetrate` moved it by that. Cause: it is behind that slope's plane, over the ridge, and counts as in front of the
-/// ground; how far its lowest corner is below that plane was told as its depth, though it is nowhere near the slope.
+/// Symptom: a plank that touches one slope of a roof was reported 0.18 m deep in the other, which is 6 cm away, and
+/// `depenetrate` moved it by that. Cause: across the ridge it is behind that slope's plane, and counts as in front of
+/// the ground; the depth of its lowest corner below that plane was reported, though the corner is nowhere near the
+/// slope.
 #[test]
 fn a_plank_on_one_slope_of_a_roof_is_not_in_the_other() {
     let [one, other] = [-1.0, 1.0].map(|z| Vec3::new(0.0, 1.0, z));
@@ -43,15 +44,16 @@ fn body(random: &mut Random) -> Shape3 {
     }
 }
 
-/// Steep hills, of one side or two.
+/// Steep hills, one-sided or two-sided.
 fn hills(random: &mut Random) -> HeightField {
     let heights: Vec<f32> = (0..25).map(|_| random.between(-0.6, 0.6) as f32).collect();
     let hills = HeightField::new(5, 5, heights, Vec2::ONE).unwrap();
     if random.below(3) == 0 { hills.one_sided() } else { hills }
 }
 
-/// The same at any margin, of bodies lowered onto hills and pressed in by up to 5 cm. Along the normal of a face, what
-/// is told as deep is so in a triangle of that normal which the body overlaps, as the exact test of bare triangles has it.
+/// The same at any margin, for bodies lowered onto hills and pressed in by up to 5 cm: where a penetration is reported
+/// along the normal of a triangle, the body overlaps a triangle with that normal, as the exact test of bare triangles
+/// decides.
 #[test]
 fn nothing_is_deep_in_a_slope_that_it_does_not_touch() {
     let mut random = Random::new(0x21D6E);
@@ -70,7 +72,7 @@ fn nothing_is_deep_in_a_slope_that_it_does_not_touch() {
             (0..ground.triangle_count()).filter_map(|number| ground.triangle(number)).collect();
         for margin in [0.0, 0.02, 0.1, 0.4] {
             for told in Pair3::new(&body, &pose, &hills, &Pose3::IDENTITY).manifolds(margin) {
-                // By less than that a part may be level with triangles beside the one that it is in.
+                // With less depth, a part may be level with triangles beside the one that it is in.
                 if told.separation > -(1.5 * pressed + 0.02) as f32 {
                     shallow += 1;
                     continue;
@@ -93,9 +95,9 @@ fn nothing_is_deep_in_a_slope_that_it_does_not_touch() {
     assert!(deep > 0 && shallow > 20_000, "{deep} deep, {shallow} shallow");
 }
 
-/// Symptom: a box over the rim of a floor was told to be 0.17 m deep in it, and straight up it came clear after 0.55.
-/// Cause: what is lowest of the box lies under the next triangle of the floor, which the box does not touch: with its
-/// lower end it is below all of the floor, and beside.
+/// Symptom: a box over the rim of a floor was reported 0.17 m deep in it, but moving straight up it came clear after
+/// 0.55. Cause: the box's lowest vertex lies under the next triangle of the floor, which the box does not touch: its
+/// lower end is below and beside the whole floor.
 #[test]
 fn a_box_over_the_rim_of_a_floor_is_told_how_deep_it_is_in_all_of_it() {
     let cell = Vec2::new(1.656_013_5, 1.067_561);
@@ -116,10 +118,12 @@ fn a_box_over_the_rim_of_a_floor_is_told_how_deep_it_is_in_all_of_it() {
     }
 }
 
-/// Symptom: of 25,000 bodies stuck in hills, 768 were told to be deeper, or less deep, by up to a metre with a margin
-/// of 3 m than without one. Causes: an edge beyond the body that came within the margin sent a triangle another way,
-/// points within the margin explained triangles that the body overlaps, or freed them; and of a triangle that the body
-/// does not touch what is behind its plane was told, if it was in the margin.
+/// Symptom: of 25,000 bodies stuck in hills, 768 were reported deeper, or less deep, by up to a metre with a margin of
+/// 3 m than without one. Causes:
+/// - an edge beyond the body that came within the margin sent a triangle down another path
+/// - points within the margin explained triangles that the body overlaps, or freed them
+/// - for a triangle that the body does not touch, but which is within the margin, the depth behind its plane was
+///   reported
 #[test]
 fn what_is_deep_does_not_depend_on_the_margin() {
     let mut random = Random::new(0x3A261);
@@ -145,10 +149,11 @@ fn what_is_deep_does_not_depend_on_the_margin() {
     assert!(deep > 2_000, "{deep}");
 }
 
-/// Symptom: of a crate in the end of a wall, deep along the normal of its side, a margin of 0.3 m and more told a second
-/// normal as deep, that of the end: with 3 m, of 25 in 25,118 random bodies. Cause: with its corner the side explains the
-/// end, of which only what is within the margin then waits until all have been heard; what the crate holds of the end's
-/// rim was told with it, deep or not.
+/// Symptom: for a crate in the end of a wall, penetrating along the normal of the wall's side, margins of 0.3 m and
+/// more gave a second penetrating normal, that of the end; with 3 m, for 25 of 25,118 random bodies. Cause: a contact
+/// with the side explains the end at their common corner, so that only the part of the end within the margin is left,
+/// which waits until all triangles have been processed; the rim vertices of the end inside the crate were then added,
+/// deep or not.
 #[test]
 fn a_larger_margin_tells_no_other_normals_as_deep() {
     let body = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.47, 0.15, 0.78)).unwrap());

@@ -1,5 +1,4 @@
-//! Bodies over the rims of ground: whether they are in it, and how deep they are told to be in what they leave along its
-//! normal.
+//! Bodies over the rims of ground: whether they overlap it, and what depth is reported for leaving it along its normal.
 
 use asunder::{Capsule3, Cuboid, Feature, Hull, Manifold3, Pair3, Pose3, Shape3, TriMesh, Triangle3};
 use asunder_geometry::glam::{DVec3, Vec2, Vec3};
@@ -42,7 +41,7 @@ fn ground(random: &mut Random) -> Shape3 {
     if is_one_sided { strip.one_sided() } else { strip }.into()
 }
 
-/// The triangles of the flat patch that a manifold is told of, if its normal is theirs.
+/// The triangles of the flat patch that a manifold belongs to, if its normal is theirs.
 fn patch_of(ground: &Shape3, told: &Manifold3) -> Vec<Triangle3> {
     let ground = Ground::of(ground).unwrap();
     let patch = ground.patch(told.part_b);
@@ -54,12 +53,13 @@ fn patch_of(ground: &Shape3, told: &Manifold3) -> Vec<Triangle3> {
         .collect()
 }
 
-/// Symptom: of 100,000 random bodies on ground, 101 that were told of one normal, that of a flat patch, were still in
-/// the patch after a move by the depth they were told, by up to 0.48 m, and 190 were told to be deeper, by up to 1.3 m,
-/// than anything of them is over the ground. Causes: points over the rim were those of one face, the one that looks
-/// against the normal the most, and of rounds those over their lowest lines, while other faces and the flanks of the
-/// rounds may be deeper there; beside bends a patch was left out where it is seen from its other side; and where no
-/// point was left, what is lowest of the body was told, wherever it is.
+/// Symptom: of 100,000 random bodies on ground, 101 with a single normal, that of a flat patch, were still in the patch
+/// after a move by the reported depth, by up to 0.48 m; 190 were reported deeper, by up to 1.3 m, than any of their
+/// points over the ground. Causes:
+/// - points over the rim came from one face only, the one most opposed to the normal, and on rounded shapes from their
+///   lowest lines, while other faces and the flanks of rounded shapes may be deeper there
+/// - next to bends, a patch that is seen from behind was left out
+/// - where no point was left, the lowest point of the body was reported, wherever it was
 #[test]
 fn a_move_by_what_is_told_frees_of_a_flat_patch_and_no_less_does() {
     let mut random = Random::new(0x21A5);
@@ -83,7 +83,7 @@ fn a_move_by_what_is_told_frees_of_a_flat_patch_and_no_less_does() {
             continue;
         }
         let (depth, error) = (-f64::from(told.separation), f64::from(told.error));
-        // Normals are told in f32, and what is deeper by less than a millionth of a body's size makes no point.
+        // Normals are reported in f32, and a depth difference below a millionth of a body's size adds no point.
         let slack = 4e-6;
         assert!(!is_in(depth + error + slack), "{case}, {margin}: still in; {body:?} {pose:?} {told:?}");
         assert!(is_in(depth - error - slack), "{case}, {margin}: left before; {body:?} {pose:?} {told:?}");
@@ -95,17 +95,17 @@ fn a_move_by_what_is_told_frees_of_a_flat_patch_and_no_less_does() {
     assert!(deep > 2_000 && over_rims > 80, "{deep} deep, {over_rims} over rims");
 }
 
-/// Symptom: of boxes that stand 1e-11 m beside the rim of a flat floor, one in thirty overlapped it, as its contact had
-/// it, and exact arithmetic says that they share no point. Cause: triangles of a flat patch share a plane, and with it
-/// what is lost by rounding: what is beside the sides of one of 100 km was told by how little that is on one of half a
-/// metre.
+/// Symptom: of boxes that stand 1e-11 m beside the rim of a flat floor, one in thirty overlapped it by its contact,
+/// though exact arithmetic says that they share no point. Cause: triangles of a flat patch share a plane, and shared
+/// its rounding error as well: whether something is beside the sides of a triangle of 100 km was decided with the error
+/// for one of half a metre.
 #[test]
 fn what_is_lost_over_a_small_triangle_says_nothing_of_a_large_one_of_its_patch() {
     let mut random = Random::new(0x51DE);
     let (mut overlapping, mut parted) = (0, 0);
     let body = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.25)).unwrap());
     for case in 0..1000 {
-        // The rim leads from the origin far away, and the box stands on the other side of it.
+        // The rim leads from the origin far away, and the box stands on the outer side of it.
         let (far, slope) = (random.between(1e5, 3e5), random.between(0.5, 2.0));
         let corners = vec![
             Vec3::ZERO,
@@ -117,7 +117,7 @@ fn what_is_lost_over_a_small_triangle_says_nothing_of_a_large_one_of_its_patch()
         let floor = TriMesh::new(corners, vec![[0, 3, 2], [0, 2, 1]]).unwrap();
         let floor = Shape3::from(if case % 2 == 0 { floor } else { floor.one_sided() });
         let beside = DVec3::new(rim.z, 0.0, -rim.x) * random.between(-1e-11, 1e-11);
-        // Its lowest corner, a trace deep.
+        // Its lowest corner, a trace below the floor.
         let corner = rim * random.between(0.01, 0.03) + beside - DVec3::Y * random.between(1e-13, 1e-11);
         let pose = Pose3::at(corner + 0.25).unwrap();
         let pair = Pair3::new(&body, &pose, &floor, &Pose3::IDENTITY);

@@ -1,4 +1,4 @@
-//! Stories of round, flat and endless shapes.
+//! Bugs with round, flat and unbounded shapes.
 
 use super::{hull, separation};
 use asunder::{Collider3, World3};
@@ -14,15 +14,15 @@ fn cube(half: f32) -> Shape3 {
     Cuboid::from_half_extents(Vec3::splat(half)).unwrap().into()
 }
 
-/// Symptom: two rocks a thousand kilometres apart were reported 158 m too close, and certain of it. Cause: weights
-/// of the nearest point of a triangle were products of its far corners, and did not sum to one.
+/// Symptom: two rocks a thousand kilometres apart were reported 158 m too close, with a small error. Cause: the
+/// barycentric weights of the closest point of a triangle were products of its far corners, and did not sum to one.
 #[test]
 fn a_small_triangle_far_away_keeps_its_distance() {
     let rock = hull(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     for distance in [1e4, 1e5, 7.5e5, 1e8] {
         let there = Pose3::new(DVec3::splat(distance), Quat::from_xyzw(-2.0, 4.0, 3.0, 1.0)).unwrap();
         let closest = Pair3::new(&rock, &Pose3::IDENTITY, &rock, &there).distance().unwrap();
-        // The nearest of all corners, and the furthest.
+        // Bounds of the distance: that of the nearest and of the furthest corners.
         let (low, high) = (distance * 3_f64.sqrt() - 2.0, distance * 3_f64.sqrt() + 2.0);
         let (reported, error) = (f64::from(closest.distance), f64::from(closest.error));
         assert!((low - error..=high + error).contains(&reported), "{distance}: {closest:?}");
@@ -33,8 +33,9 @@ fn a_small_triangle_far_away_keeps_its_distance() {
     }
 }
 
-/// Symptom: a die five metres under the floor touched it with its side. Cause: the threshold for "as deep as any" went
-/// through f32, whose half ulp was more than the die's tolerance; no corner was deep enough, and face 0 was taken.
+/// Symptom: a die five metres under the floor touched it with its side. Cause: the threshold for "counts as deepest"
+/// was stored in f32, whose half ulp was more than the die's tolerance; no corner was deep enough, and face 0 was
+/// taken.
 #[test]
 fn a_die_deep_under_the_floor_touches_it_with_four_corners() {
     let (floor, die) = (floor(), cube(0.01));
@@ -48,8 +49,8 @@ fn a_die_deep_under_the_floor_touches_it_with_four_corners() {
     }
 }
 
-/// Symptom: a ball touched its floor for a pair, and not in a world. Cause: what rounding may have lost was counted
-/// with all coordinates there, and with those on one axis in the boxes.
+/// Symptom: a ball touched its floor as a pair, and not in a world. Cause: the pair's rounding error was bounded with
+/// all coordinates, that of the AABBs with those on one axis.
 #[test]
 fn what_touches_as_a_pair_touches_in_a_world() {
     let ball: Shape3 = Sphere::new(0.5).unwrap().into();
@@ -61,7 +62,7 @@ fn what_touches_as_a_pair_touches_in_a_world() {
             for gap in [0.0, -1e-16, -3e-13, -3e-9, -1e-4, 1e-15, 3e-13, 1e-11, 3e-9, 1e-6, 1e-4] {
                 let there = Pose3::at([place, 0.5 + gap, 0.0]).unwrap();
                 let overlaps = Pair3::new(&ground, &here, &ball, &there).overlaps();
-                // Nothing is rounded to touching: no gap is, and the slab ends at 50 m.
+                // Nothing touches by rounding: no gap does, and the slab ends at 50 m.
                 assert_eq!(
                     overlaps,
                     gap <= 0.0 && (level == 0.0 || place < 50.0),
@@ -80,8 +81,9 @@ fn what_touches_as_a_pair_touches_in_a_world() {
     assert_eq!((touching, apart), (5 * 7, 6 * 7 + 11 * 3));
 }
 
-/// Symptom: two half-spaces face to face, a picometre apart: `overlaps` said no, `separation` zero, and `distance`
-/// had no points. Cause: the only one of the kernels that compared with the limit itself, and not with rounding added.
+/// Symptom: for two half-spaces face to face, a picometre apart, `overlaps` was false, `separation` zero, and
+/// `distance` had no points. Cause: this kernel was the only one that compared with the limit itself, without the
+/// rounding error added.
 #[test]
 fn half_spaces_face_to_face_have_one_answer() {
     let (up, down) = (floor(), Shape3::from(HalfSpace::new(Vec3::NEG_Y).unwrap()));
@@ -94,14 +96,14 @@ fn half_spaces_face_to_face_have_one_answer() {
     }
 }
 
-/// Symptom: a pill on the edge of a table rocked without end. Cause: its one contact point jumped from end to end.
+/// Symptom: a capsule on the edge of a table rocked endlessly. Cause: its one contact point jumped from end to end.
 #[test]
 fn a_capsule_along_an_edge_rests_on_both_ends() {
     let table = cube(0.5);
     let capsule: Shape3 = Capsule3::new(Vec3::X * -0.5, Vec3::X * 0.5, 0.1).unwrap().into();
     let rod: Shape3 = Segment3::new(Vec3::X * -0.5, Vec3::X * 0.5).unwrap().into();
     let out = DVec3::new(0.0, 0.8, 0.6);
-    // Leaning edges lie beside each other at the ends. Sharp ones can't meet half way.
+    // A capsule that leans against the edge is beside it at the ends. A sharp segment touches only where the two cross.
     for (shape, radius, leans) in [(&capsule, 0.1, [0.0, 1e-7, -1e-4]), (&rod, 0.0, [0.0, 1e-7, -2e-7])] {
         for lean in leans {
             let place = DVec3::new(0.0, 0.5, 0.5) + out * (radius + 0.001);
@@ -114,9 +116,9 @@ fn a_capsule_along_an_edge_rests_on_both_ends() {
     }
 }
 
-/// Symptom: a pill of 20 km and a speck touched or not by the order in which they were asked. Cause: close to
-/// touching, the iteration looked along the rounding of a vector, found nothing new, and stopped with a wide gap
-/// between its bounds.
+/// Symptom: whether a mountain of 20 km and a speck touched depended on the order of the arguments. Cause: close to
+/// touching, the iteration searched along a vector that was rounding noise, found no new support point, and stopped
+/// with a wide gap between its bounds.
 #[test]
 fn nearly_touching_is_told_alike_from_both_sides() {
     let ends = [Vec3::new(-5e-6, 1.9471157e-5, -6.2244644e-6), Vec3::new(-1.5e-5, 2e-5, 7.3082783e-6)];
@@ -141,8 +143,8 @@ fn nearly_touching_is_told_alike_from_both_sides() {
     }
 }
 
-/// Symptom: a third of the poses of one pill lying on another had one point, the rest two. Cause: whether a point
-/// lay past the end of a segment was asked without slack, of points that lie exactly on it.
+/// Symptom: of a capsule lying on another, a third of the poses had one contact point, the others two. Cause: whether a
+/// point lay past the end of a segment was tested without tolerance, for points that lie exactly on the end.
 #[test]
 fn a_lean_of_a_hair_costs_no_point() {
     let below: Shape3 = Capsule3::new(Vec3::NEG_X, Vec3::X, 0.25).unwrap().into();
@@ -157,8 +159,8 @@ fn a_lean_of_a_hair_costs_no_point() {
     }
 }
 
-/// Symptom: an upright pill had a contact point at its own centre. Cause: the far end of its segment was within a
-/// wide margin, and its surface was looked for across a segment that points at the floor.
+/// Symptom: an upright capsule had a contact point at its own centre. Cause: the far end of its segment was within a
+/// wide margin, and the surface point was searched perpendicular to a segment that points at the floor.
 #[test]
 fn an_upright_capsule_stands_on_its_lower_end_alone() {
     let pill: Shape3 = Capsule3::from_half_height(0.1, 0.1).unwrap().into();
@@ -174,8 +176,8 @@ fn an_upright_capsule_stands_on_its_lower_end_alone() {
     }
 }
 
-/// Symptom: a box that touched a box at a corner had three points there. Cause: points were told apart by their
-/// names alone.
+/// Symptom: a box that touched a box at a corner had three contact points there. Cause: points were compared by their
+/// feature ids alone.
 #[test]
 fn a_place_is_one_point_whatever_meets_there() {
     let boxes = [Vec3::new(0.58761305, 0.4661633, 0.1709751), Vec3::new(0.5592223, 0.69282347, 0.15741427)];

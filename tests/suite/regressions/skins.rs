@@ -1,10 +1,10 @@
-//! Bodies that come to rest a hair off what they met, and go on along it.
+//! Bodies that stop a hair off what they hit, and go on along it.
 
 use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{Collider3, Cuboid, HalfSpace, Motion3, Pair3, Pose3, Shape3, Sphere, TriMesh, World3};
 
-/// How far a bullet rolls at 5 m/s over a floor, frame by frame as the guide says (game loops), if after each impact it
-/// is put so far off what it met.
+/// How far a bullet rolls at 5 m/s over a floor, frame by frame as the guide describes (game loops), if after each
+/// impact it is placed at the distance `skin` from what it hit.
 fn rolled(floor: Shape3, top: f64, turn: Quat, (frames, skin): (u32, f64)) -> f64 {
     let base = Pose3::new([3.0, 4.0, 5.0], turn).unwrap();
     let mut world = World3::new();
@@ -12,7 +12,7 @@ fn rolled(floor: Shape3, top: f64, turn: Quat, (frames, skin): (u32, f64)) -> f6
     let start = base.compose(&Pose3::at([-450.0, top + 0.3, 0.0]).unwrap()).unwrap();
     let ball = Collider3::new(Sphere::new(0.25).unwrap()).margin(0.005).unwrap().bullet();
     let ball = world.insert(ball.at(start));
-    // What pulls it pulls straight into the floor, so that it rolls on evenly.
+    // Gravity points straight into the floor, so that the bullet rolls on evenly.
     let (mut speed, pull, time) = (base.turn(DVec3::X * 5.0), base.turn(DVec3::Y * -9.81), 1.0 / 60.0);
     for _ in 0..frames {
         speed += pull * time;
@@ -37,10 +37,10 @@ fn rolled(floor: Shape3, top: f64, turn: Quat, (frames, skin): (u32, f64)) -> f6
     (world.pose(ball).unwrap().position() - start.position()).length()
 }
 
-/// Symptom: a ball that rolled as in the guide stood still for good: on half of all tilted half-spaces at once, on
-/// cuboids and meshes after a minute. Cause: an impact ends a hair off the floor, and of a speed that a normal of f32
-/// was taken out of, a ten-millionth still leads into it; so the next impact came at once, in each frame. The guide
-/// told of no skin there.
+/// Symptom: a ball that rolled as in the guide got stuck for good: on half of all tilted half-spaces at once, on
+/// cuboids and meshes after a minute. Cause: an impact ends a hair off the floor, and after removing the component
+/// along an f32 normal from a velocity, a ten-millionth of it still leads into the floor; so the next impact came at
+/// once, in each frame. The guide mentioned no skin there.
 #[test]
 fn a_bullet_with_a_skin_rolls_on_over_tilted_floors() {
     let corners =
@@ -59,9 +59,10 @@ fn a_bullet_with_a_skin_rolls_on_over_tilted_floors() {
     }
 }
 
-/// What the skin is for cannot be passed over: whoever goes on from a hair off the floor by no more than rounding is in
-/// it a frame later, and what is in something is not stopped by it. So a ball that is pressed into the floor by a
-/// ten-millionth of its way is held, for as long as it may be, and what then sends it in for good finds it outside.
+/// The purpose of the skin cannot be had by ignoring such impacts: a body that goes on from a hair off the floor by no
+/// more than rounding is in it a frame later, and a body inside something is not stopped by it. So a ball that is
+/// pressed into the floor by a ten-millionth of its way is held for any number of frames, and a motion that then leads
+/// right in still finds it outside.
 #[test]
 fn a_bullet_that_presses_by_a_rounding_never_gets_in() {
     let ball = Shape3::from(Sphere::new(0.25).unwrap());

@@ -1,4 +1,4 @@
-//! Keys whose body is gone.
+//! Keys of bodies that were removed.
 
 use asunder::{
     BodyKey2, BodyKey3, Circle, Collider2, Collider3, Hit2, Hit3, Motion2, Motion3, Pose2, Pose3, Sphere,
@@ -13,9 +13,9 @@ fn others2<'h>(hits: impl IntoIterator<Item = &'h Hit2>) -> Vec<BodyKey2> {
     hits.into_iter().map(|hit| hit.other).collect()
 }
 
-/// Symptom: `impacts_of` told of a bullet that had been removed, also when another body had its slot, and of whom it
-/// had met that was removed since; `contacts_of` and all other calls about one body leave both out. Cause: it compared
-/// keys with those of the last update alone.
+/// Symptom: `impacts_of` listed impacts of a bullet that had been removed, even after another body took its slot, and
+/// impacts with bodies removed since; `contacts_of` and all other calls about one body leave both out. Cause: it
+/// compared keys only with those of the last update.
 #[test]
 fn a_bullet_that_is_gone_has_no_impacts_and_none_is_with_whom_is_gone() {
     let mut world = World3::new();
@@ -58,7 +58,7 @@ fn a_bullet_of_the_plane_that_is_gone_has_no_impacts_and_none_is_with_whom_is_go
     assert_eq!(world.impacts().len(), 2);
 }
 
-/// All other calls about one body or two, before and after another body has the slot.
+/// All other calls about one or two bodies, before and after another body takes the slot.
 #[test]
 fn no_call_about_a_body_that_is_gone_tells_anything() {
     let mut world = World3::new();

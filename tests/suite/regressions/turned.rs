@@ -1,4 +1,4 @@
-//! Who turns while it touches something: what it runs into.
+//! Bodies that turn while they touch something: what they run into.
 
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder::{
@@ -29,9 +29,9 @@ fn box_on_floor(half: Vec3, at: Vec3) -> Shape3 {
     TriMesh::new(vertices, triangles).unwrap().into()
 }
 
-/// Symptom: a box that turns on its floor, and touches it, went 0.1 m into a wall and was told of nothing. Cause: at
-/// the start the two overlap by 0.2 m along the axis along which they meet later; that counted as beside, and what goes
-/// in was counted from there.
+/// Symptom: a box that turns on its floor, and touches it, went 0.1 m into a wall without an impact. Cause: at the
+/// start the box and the wall stand beside each other, but along the normal of their later impact they overlap by 0.2
+/// m; how far the box goes in was counted from that depth.
 #[test]
 fn who_turns_on_its_floor_runs_into_the_wall() {
     let shape = |half: Vec3| Shape3::from(Cuboid::from_half_extents(half).unwrap());
@@ -63,7 +63,7 @@ fn who_turns_on_its_floor_runs_into_the_wall() {
     }
 }
 
-/// The same in the plane, of a rod that stands on its floor with one corner.
+/// The same in the plane, for a rod that stands on its floor with one corner.
 #[test]
 fn who_turns_on_its_floor_of_the_plane_runs_into_the_wall() {
     let shape = |x: f32, y: f32| Shape2::from(Rect::from_half_extents(Vec2::new(x, y)).unwrap());
@@ -79,8 +79,8 @@ fn who_turns_on_its_floor_of_the_plane_runs_into_the_wall() {
     assert!((told.fraction - alone.fraction).abs() < 1e-6 && !told.overlapping, "{told:?} {alone:?}");
 }
 
-/// What begins deep along a later normal without being beside it: the far faces of a hill, on whose top a body slides
-/// and spins. It comes out of them, and runs into none.
+/// Counterexample: things that are deep along a later normal at the start without being beside the body, the far faces
+/// of a hill on whose top a body slides and spins. The body comes out of them, and hits none.
 #[test]
 fn who_spins_and_slides_over_a_hill_is_stopped_by_none_of_its_faces() {
     let (radius, step, count) = (60.0, 0.5, 24);
@@ -111,7 +111,7 @@ fn who_spins_and_slides_over_a_hill_is_stopped_by_none_of_its_faces() {
         assert!(pair.overlaps());
         let told = pair.next_impact(&motion, &Motion3::STILL);
         assert_eq!(told, None, "{i}: {way} {spin}");
-        // In the plane, it leans as the hill does there.
+        // In the plane, the body tilts as the hill does there.
         let lean = Rotation2::new(1.0, (-way / radius) as f32).unwrap();
         let (pose, motion) = (
             Pose2::at([0.01, 0.3 - pressed]).unwrap(),

@@ -1,4 +1,4 @@
-//! Motions that were told of what they never reach, or not of what they do.
+//! Motions with an impact where there is none, or without one where there is.
 
 use asunder::glam::{DVec3, Quat, Vec2, Vec3};
 use asunder::{
@@ -6,8 +6,9 @@ use asunder::{
     Shape2, Shape3, Sphere,
 };
 
-/// Symptom: a wheel of many sides that spins above its road was said to hit it, 0.1 mm apart. Cause: it takes more
-/// steps than there are to get away from a gap that small by what turns, and where they end an impact was told.
+/// Symptom: a wheel of many sides that spins above its road had an impact with it, 0.1 mm apart. Cause: a turning body
+/// needs more advancement steps than are allowed to get away from so small a gap, and when they ran out an impact was
+/// reported.
 #[test]
 fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
     let (gap, road) = (1.384e-4, Vec2::new(3.0, 0.5));
@@ -42,8 +43,8 @@ fn a_wheel_that_spins_beside_its_road_does_not_hit_it() {
     }
 }
 
-/// Symptom: at the edge of the world, a body's poses overlapped another and no impact was told. Cause: each pose was
-/// moved to the edge by itself, so that its way bent there, and impacts are those of a straight way.
+/// Symptom: at the edge of the world, poses along a body's motion overlapped another body without an impact. Cause:
+/// each pose was clamped to the edge by itself, so that the path bent there, while impacts assume a straight path.
 #[test]
 fn poses_and_impacts_agree_at_the_edge_of_the_world() {
     let ball = Shape3::from(Sphere::new(2.0).unwrap());

@@ -1,4 +1,4 @@
-//! Compounds: the least of their parts, a manifold for each pair of parts that touch, and nothing else.
+//! Compounds: the least of their parts' separations, a manifold for each pair of parts that touch, and nothing else.
 
 use crate::shapes::Judged;
 use asunder_geometry::{
@@ -14,7 +14,7 @@ use glam::{DVec3, Quat, Vec2, Vec3};
 const COMPOUND3: usize = 10;
 const COMPOUND2: usize = 7;
 
-/// Of a pair of compounds: manifolds exactly for the parts that are near, in order, each right by itself.
+/// A pair of compounds has manifolds exactly for the parts that are near, in order, each right by itself.
 #[test]
 fn every_pair_of_parts_that_touches_has_one_manifold() {
     let (mut several, mut none) = (0, 0);
@@ -78,7 +78,7 @@ fn every_pair_of_parts_in_the_plane_that_touches_has_one_manifold() {
     assert!(several > 400 && none > 200, "{several} with several, {none} with none");
 }
 
-/// Whether a pair has a kernel of its own, which parts of compounds have not, that rounds its number otherwise.
+/// Whether a pair has a kernel of its own, not used for parts of compounds, that rounds its separation differently.
 const fn has_own_number(a: &Shape3, b: &Shape3) -> bool {
     use Shape3::{Capsule, HalfSpace, Hull, Segment, Sphere, Triangle};
     matches!(
@@ -91,13 +91,13 @@ const fn has_own_number(a: &Shape3, b: &Shape3) -> bool {
     )
 }
 
-/// The same of points alone.
+/// The same for points alone.
 const fn has_own_points(a: &Shape3, b: &Shape3) -> bool {
     use Shape3::{Cuboid, Sphere};
     matches!((a, b), (Cuboid(_) | Sphere(_), Cuboid(_) | Sphere(_))) || has_own_number(a, b)
 }
 
-/// The same points, up to rounding to f32.
+/// Asserts that the points are the same, up to rounding to f32.
 fn assert_alike(one: &[ContactPoint3], other: &[ContactPoint3], size: f64) {
     let features = |points: &[ContactPoint3]| points.iter().map(|point| point.feature).collect::<Vec<_>>();
     assert_eq!(features(one), features(other));
@@ -109,7 +109,8 @@ fn assert_alike(one: &[ContactPoint3], other: &[ContactPoint3], size: f64) {
     }
 }
 
-/// One part, not moved inside its compound, gives the same bits as the shape alone; moved, the same up to the errors.
+/// One part with the identity pose in its compound gives the same bits as the shape alone; moved, the same within
+/// errors.
 #[test]
 fn a_compound_of_one_part_is_that_part() {
     for round in 0..1500 {
@@ -128,7 +129,7 @@ fn a_compound_of_one_part_is_that_part() {
             let is_same = one.separation == other.separation;
             let apart = (one.separation - other.separation).abs();
             assert!(is_same || apart <= one.error + other.error, "{bodies:?}");
-            // Of two capsules in one place, any direction across their segments is as good.
+            // For two capsules in one place, all directions across their segments are equally good.
             if shape_a == shape_b && pose_a == pose_b {
                 continue;
             }
@@ -138,13 +139,13 @@ fn a_compound_of_one_part_is_that_part() {
         }
         let points = |pair: &Pair3| pair.manifold(0.1).map_or(Default::default(), |manifold| manifold.points);
         let (of_part, of_body) = (points(&pair), points(&bodies.pair()));
-        // Kernels of their own place their points with fewer roundings.
+        // Kernels for special pairs place their points with fewer roundings.
         if has_own_points(shape_a, shape_b) {
             assert_alike(&of_part, &of_body, f64::from(bodies.pair().size()));
         } else {
             assert_eq!(of_part, of_body, "{bodies:?}");
         }
-        // A body at the origin whose one part is where the shape was.
+        // A body at the origin whose only part is where the shape was.
         if pose_a.position().length() < 10.0 {
             let moved = Compound3::new([(*pose_a, shape_a.clone())]).unwrap().into();
             let pair = Pair3::new(&moved, &Pose3::IDENTITY, shape_b, pose_b);
@@ -175,7 +176,7 @@ fn a_compound_of_one_part_in_the_plane_is_that_part() {
     }
 }
 
-/// A part that is beyond the limit by its bounding sphere alone may still be nearer than one that was measured.
+/// A part whose bounding sphere is beyond the limit may still be nearer than one that was measured.
 #[test]
 fn a_limit_never_hides_the_nearer_part() {
     let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 1.0, 1.0)).unwrap());
@@ -199,7 +200,7 @@ fn a_limit_never_hides_the_nearer_part() {
     }
 }
 
-/// A bound says no less than the limit, also where it is a bounding sphere's.
+/// A bound is never less than the limit, even where it comes from a bounding sphere.
 #[test]
 fn a_bound_is_never_below_the_limit() {
     let ball = Shape3::from(Sphere::new(1.0).unwrap());
@@ -228,14 +229,14 @@ fn a_part_that_its_rotation_makes_longer_still_touches() {
         let end = random.direction2().as_vec2() * 50.0;
         let needle = Shape2::from(Segment2::new(-end, end).unwrap());
         let slack = f64::from(needle.outer_radius()) - end.as_dvec2().length();
-        // A longer needle than its bounding circle, whose radius was rounded up.
+        // Only needles longer than their bounding circle, whose radius was rounded up.
         if end.as_dvec2().length() * (scale - 1.0) < slack + 1e-6 {
             continue;
         }
         tried += 1;
         let compound = Shape2::from(Compound2::new([(Pose2::IDENTITY, needle.clone())]).unwrap());
         let pose = Pose2::new([0.0, 0.0], turn).unwrap();
-        // A needle along the same line, that begins where this one ends by its true length.
+        // A circle on the same line, which the needle's true end enters by 0.3 micrometres.
         let tip = turn.turn(end.as_dvec2());
         let ball = Shape2::from(Circle::new(1.0).unwrap());
         let there = Pose2::at(tip + tip.normalize() * (1.0 - 0.3e-6)).unwrap();
@@ -248,7 +249,7 @@ fn a_part_that_its_rotation_makes_longer_still_touches() {
     assert!(tried > 10, "{tried} needles");
 }
 
-/// Far from the compound's origin, and with the part's place undoing the body's.
+/// Far from the compound's origin, with a body pose that moves the part back.
 #[test]
 fn parts_far_from_their_compounds_origin_are_as_exact_as_their_places() {
     for round in 0..600 {
@@ -274,7 +275,7 @@ fn parts_far_from_their_compounds_origin_are_as_exact_as_their_places() {
     }
 }
 
-/// Bodies are compared as they stand: a turned compound of turned parts against the parts as bodies of their own.
+/// Compared in their final poses: a rotated compound of rotated parts against the parts as separate bodies.
 #[test]
 fn a_compound_is_its_parts_as_bodies() {
     let ball = Shape3::from(Sphere::new(0.5).unwrap());
@@ -286,7 +287,7 @@ fn a_compound_is_its_parts_as_bodies() {
             .unwrap()
             .into();
     let pose = Pose3::new([5.0, 0.0, 0.0], quarter).unwrap();
-    // A quarter turn about z takes y to -x: the ball comes to stand at x = 6, the box at x = 3, turned by half a turn.
+    // A quarter turn about z takes y to -x: the ball ends up at x = 6, the box at x = 3, rotated by half a turn.
     let half_turn = Quat::from_xyzw(0.0, 0.0, 1.0, 0.0);
     let parts = [
         (ball, Pose3::at([6.0, 0.0, 0.0]).unwrap()),
@@ -309,7 +310,7 @@ fn a_compound_is_its_parts_as_bodies() {
         let Separation3::Measured(found) = pair.separation(f32::INFINITY) else { panic!("no limit") };
         assert!((found.separation - expected).abs() < 1e-6, "{found:?}, by its parts {expected}, at {at}");
     }
-    // In the plane alike, with a rotation that is one only up to rounding.
+    // The same in the plane, with a rotation that has length one only up to rounding.
     let turn = Rotation2::new(0.6, 0.8).unwrap();
     let disc = Shape2::from(Circle::new(0.5).unwrap());
     let pair_of = Compound2::new([(Pose2::at(Vec2::X).unwrap(), disc.clone())]).unwrap().into();

@@ -1,4 +1,4 @@
-//! Contacts that physics lives on, by their number, their place, and how they change.
+//! Contacts that physics depends on: their number, their positions, and how they change.
 
 use asunder_geometry::{
     Capsule2, Capsule3, Circle, Cuboid, HalfPlane, HalfSpace, Hull, Polygon, Pose2, Pose3, Rect, Rotation2,
@@ -16,7 +16,7 @@ fn cube(half: f32) -> Cuboid {
     Cuboid::from_half_extents(Vec3::splat(half)).unwrap()
 }
 
-/// Along x: half a metre of segment each way, 0.3 m thick.
+/// Along x: half a metre of segment each way, with a radius of 0.25 m.
 fn lying_capsule() -> Shape3 {
     Capsule3::new(Vec3::NEG_X * 0.5, Vec3::X * 0.5, 0.25).unwrap().into()
 }
@@ -32,7 +32,7 @@ fn floors() -> [(&'static str, Shape3, f64); 4] {
     ]
 }
 
-/// What lies flat on a floor of any kind, how high its origin then is, and how many points hold it.
+/// Shapes that lie flat on a floor of any kind, the heights of their origins then, and how many points support them.
 fn lying() -> [(&'static str, Shape3, f64, usize); 6] {
     let wedge = [Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::Y].map(|v| v - Vec3::new(0.25, 0.0, 0.25));
     let patch = Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::Z).unwrap();
@@ -46,7 +46,7 @@ fn lying() -> [(&'static str, Shape3, f64, usize); 6] {
     ]
 }
 
-/// Sunk by a hair, by much, exactly touching, and a hair above: on as many points as hold it, in both orders.
+/// Slightly sunk in, deep, exactly touching, and slightly above: all supporting points are present, in both orders.
 #[test]
 fn what_lies_on_a_floor_lies_on_all_of_its_points() {
     let mut random = Random::new(7200);
@@ -54,7 +54,7 @@ fn what_lies_on_a_floor_lies_on_all_of_its_points() {
         for (name, shape, height, expected) in lying() {
             for round in 0..40 {
                 let sunk = [0.0, 1e-6, 1e-3, 0.01, -1e-6, -1e-3][round % 6];
-                // One sheet on another is never sunk: it is above or below.
+                // A sheet is never sunk into another sheet: it is above or below.
                 let are_sheets = (floor_name, name) == ("triangle", "triangle");
                 if are_sheets && sunk > 0.0 {
                     continue;
@@ -74,7 +74,7 @@ fn what_lies_on_a_floor_lies_on_all_of_its_points() {
                         panic!("{name} on {floor_name}, sunk {sunk}: nothing")
                     };
                     let count = manifold.contacts.len();
-                    // One sheet on another is never sunk: it is above or below.
+                    // A sheet is never sunk into another sheet: it is above or below.
                     let sunk =
                         if (floor_name, name) == ("triangle", "triangle") { -sunk.abs() } else { sunk };
                     assert_eq!(count, expected, "{name} on {floor_name}, sunk {sunk}: {manifold:?}");
@@ -107,7 +107,7 @@ fn parallel_capsules_touch_in_two_points_and_crossed_ones_in_one() {
     assert_eq!(points([1.49, 0.0, 0.0], Quat::IDENTITY), 1, "end to end");
 }
 
-/// A hair of a turn more may not cost a lying capsule one of its points.
+/// A tiny bit more rotation must not cost a lying capsule one of its points.
 #[test]
 fn a_capsule_that_rolls_over_a_box_keeps_two_points() {
     let capsule = lying_capsule();
@@ -162,7 +162,7 @@ fn what_lies_on_a_line_lies_on_both_of_its_points() {
     }
 }
 
-/// Pushed through the place where the cores begin to overlap, nothing jumps by more than the step.
+/// Moved through the place where the cores begin to overlap, nothing jumps by more than the step.
 #[test]
 fn a_separation_passes_from_gap_to_core_overlap_without_a_jump() {
     let mut random = Random::new(7201);
@@ -182,7 +182,7 @@ fn a_separation_passes_from_gap_to_core_overlap_without_a_jump() {
             pose_b: Pose3::new(random.direction(), random.quaternion()).unwrap(),
         };
         let radii = f64::from(case.shape_a.radius() + case.shape_b.radius());
-        // To where the cores touch, then through it.
+        // Moves to where the cores touch, then through it.
         let mut at = case.pose_b.position();
         let mut normal = DVec3::X;
         for _ in 0..4 {
@@ -209,7 +209,7 @@ fn a_separation_passes_from_gap_to_core_overlap_without_a_jump() {
     }
 }
 
-/// Two half-spaces part only where they look exactly away from each other.
+/// Two half-spaces can be apart only if their normals are exactly opposite.
 #[test]
 fn half_spaces_overlap_without_end_or_lie_apart() {
     let up = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
@@ -222,7 +222,7 @@ fn half_spaces_overlap_without_end_or_lie_apart() {
     assert!(!pair.overlaps() && pair.distance().is_some() && pair.manifold(1.0).is_none());
     let manifold = pair.manifold(2.0).unwrap();
     assert_eq!((manifold.points.len(), manifold.points[0].separation), (1, 2.0));
-    // Sunk into each other by a finite depth, and looking another way, without end.
+    // Sunk into each other by a finite depth; and with another normal, without bound.
     let sunk = (pose(0.5), pose(0.0));
     let pair = Pair3::new(&up, &sunk.0, &down, &sunk.1);
     assert!(pair.overlaps() && pair.distance().is_none());
@@ -236,7 +236,7 @@ fn half_spaces_overlap_without_end_or_lie_apart() {
     }
 }
 
-/// One rotation for both does not change how two half-spaces stand to each other.
+/// The same rotation for both does not change the relation of two half-spaces.
 #[test]
 fn half_spaces_that_are_turned_alike_still_look_away_from_each_other() {
     let mut random = Random::new(7202);
@@ -269,8 +269,7 @@ fn half_spaces_that_are_turned_alike_still_look_away_from_each_other() {
     assert_eq!(parted, rounds, "2 m apart in the plane, and called so");
 }
 
-/// Of two vertices that are equally deep one may lie past the reference face: the contact is on what lies over the
-/// face.
+/// Of two vertices that are equally deep one may lie past the reference face: the contact point is over the face.
 #[test]
 fn a_contact_lies_over_the_face_where_an_edge_leads_past_it() {
     let cuboid = Cuboid::from_half_extents(Vec3::new(0.375, 0.875, 0.75)).unwrap();
@@ -295,7 +294,7 @@ fn a_contact_lies_over_the_face_where_an_edge_leads_past_it() {
     }
 }
 
-/// Two capsules that lie across each other by a few degrees, one on top.
+/// Two capsules that cross at a few degrees, one on top.
 #[test]
 fn both_points_of_nearly_parallel_capsules_lie_one_above_the_other() {
     let capsule = lying_capsule();
@@ -314,7 +313,7 @@ fn both_points_of_nearly_parallel_capsules_lie_one_above_the_other() {
     }
 }
 
-/// Margins and limits that are no lengths: NaN and below zero count as none, infinity takes everything.
+/// Margins and limits that are not lengths: NaN and negative values count as zero, infinity includes everything.
 #[test]
 fn any_margin_and_any_limit_has_an_answer() {
     for round in 0..KINDS3.len() * KINDS3.len() {
@@ -337,7 +336,7 @@ fn any_margin_and_any_limit_has_an_answer() {
     }
 }
 
-/// Sheets that share a plane are told apart or not by rounding; if apart, their closest points still lie on both.
+/// Whether coplanar sheets are reported apart is decided by rounding; if so, their closest points still lie on both.
 #[test]
 fn closest_points_of_sheets_in_one_plane_lie_on_both() {
     let mut random = Random::new(7211);
@@ -364,14 +363,14 @@ fn closest_points_of_sheets_in_one_plane_lie_on_both() {
     assert!(apart > 100, "{apart} apart");
 }
 
-/// Swapped, a pair has the same features with sides changed: all but the few where two faces are equally good.
+/// Swapped, a pair has the same features with sides changed, except for the few where two faces are equally good.
 #[test]
 fn features_change_sides_with_their_shapes() {
     let (mut equal, mut other) = (0, 0);
     for round in 0..4000 {
         let mut random = Random::new(7220 + round as u128);
         let kinds = [random.below(KINDS3.len() - 2), random.below(KINDS3.len() - 2)];
-        // Places 0 to 3 are random ones.
+        // Relative poses 0 to 3 are random ones.
         let bodies = pair3(&mut random, &KINDS3[kinds[0]], &KINDS3[kinds[1]], round % 4);
         let Some(manifold) = bodies.pair().manifold(0.0) else { continue };
         let turned = bodies.swapped();

@@ -1,4 +1,4 @@
-//! Yes or no, held against whole numbers.
+//! Overlap decisions against integers.
 
 use asunder_geometry::{
     Capsule2, Capsule3, Circle, Cuboid, HalfSpace, Pose2, Pose3, Segment3, Shape2, Shape3, Sphere, Triangle3,
@@ -12,10 +12,10 @@ use asunder_tests::shapes::{KINDS2, KINDS3, pair2, pair3};
 use glam::{DVec3, Vec3};
 use num_bigint::BigInt;
 
-/// Short coordinates, of which every product in the engine fits f64: places 6 to 8 of the table.
+/// Short coordinates, for which every product in the engine is exact in f64: relative poses 6 to 8 of the table.
 const SHORT: [usize; 3] = [6, 7, 8];
 
-/// Sharp, bounded and convex: the rows that the simplex judges.
+/// Sharp, bounded and convex: the rows that the simplex oracle can judge.
 fn sharp<S>(kinds: &[asunder_tests::shapes::Kind<S>]) -> Vec<usize> {
     let names = ["cuboid", "hull", "flat hull", "triangle", "segment", "rectangle", "polygon"];
     (0..kinds.len()).filter(|&i| names.contains(&kinds[i].0)).collect()
@@ -59,7 +59,7 @@ fn sharp_shapes_on_a_lattice_in_the_plane_are_decided_exactly() {
     assert!(touching > 50, "{touching} touching");
 }
 
-/// Random poses: the judges of this module against the simplex, so that neither errs alone.
+/// Random poses: the oracles of this module against the simplex, so that neither is wrong alone.
 #[test]
 fn the_judges_agree_with_the_simplex() {
     let mut asked = 0;
@@ -92,13 +92,13 @@ fn the_judges_agree_with_the_simplex() {
     assert!(asked > 300, "{asked} asked");
 }
 
-/// Balls and discs: the square of the distance against the square of the radii's sum, in whole numbers.
+/// Balls and discs: the square of the distance against the square of the radii's sum, in integers.
 #[test]
 fn balls_are_decided_by_whole_squares() {
     let mut random = Random::new(7100);
     let (mut touching, mut overlapping) = (0, 0);
     for round in 0..40_000 {
-        // Small whole numbers, in which touching is common, times a power of two.
+        // Small integers, with which touching is common, times a power of two.
         let unit = [1.0, 0.25, 1024.0, 1.0 / 262_144.0][round % 4];
         let mut whole = |low: i64, count: usize| (low + random.below(count) as i64) as f64 * unit;
         let apart = [whole(-9, 19), whole(-9, 19), whole(-9, 19)];
@@ -139,7 +139,7 @@ fn cross(a: Whole, b: Whole) -> Whole {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Whether a point is within `radius` of a segment, in whole numbers.
+/// Whether a point is within `radius` of a segment, in integers.
 fn is_point_within(p: Whole, [from, to]: [Whole; 2], radius: i128) -> bool {
     let (along, arm) = (minus(to, from), minus(p, from));
     let (place, length) = (dot(arm, along), dot(along, along));
@@ -153,7 +153,7 @@ fn is_point_within(p: Whole, [from, to]: [Whole; 2], radius: i128) -> bool {
     dot(side, side) <= radius * radius * length
 }
 
-/// Whether two segments are within `radius`, in whole numbers: an end of either, or the common perpendicular.
+/// Whether two segments are within `radius`, in integers: an end of either, or the common perpendicular.
 fn are_segments_within(a: [Whole; 2], b: [Whole; 2], radius: i128) -> bool {
     let ends =
         a.iter().any(|&p| is_point_within(p, b, radius)) || b.iter().any(|&p| is_point_within(p, a, radius));
@@ -172,7 +172,7 @@ fn are_segments_within(a: [Whole; 2], b: [Whole; 2], radius: i128) -> bool {
 fn capsules_and_balls_are_decided_by_whole_squares() {
     let mut random = Random::new(7101);
     let (mut touching, mut overlapping) = (0, 0);
-    // Pairs that touch exactly and were called apart: in the plane, in space.
+    // Pairs that touch exactly and were reported apart: in the plane, in space.
     let mut missed = [0, 0];
     for round in 0..40_000 {
         let flat = round % 2 == 0;
@@ -215,7 +215,7 @@ fn capsules_and_balls_are_decided_by_whole_squares() {
         let moved = stretched(b).map(|end| [end[0] + at[0], end[1] + at[1], end[2] + at[2]]);
         let sum = radii[0] + radii[1];
         let expected = are_segments_within(stretched(a), moved, sum);
-        // Squares times a thousand squared tell a distance of exactly the sum from one a thousandth less.
+        // Scaled by a thousand, squares distinguish a distance of exactly the sum from one a thousandth less.
         let thousandfold = |ends: [Whole; 2]| ends.map(|end| end.map(|c| 1000 * c));
         let is_touching =
             expected && !are_segments_within(thousandfold(stretched(a)), thousandfold(moved), 1000 * sum - 1);
@@ -228,14 +228,14 @@ fn capsules_and_balls_are_decided_by_whole_squares() {
         overlapping += usize::from(expected);
     }
     assert!(touching > 300 && overlapping > 10_000, "{touching} touching, {overlapping} in overlap");
-    // Along a slanting segment the foot or the normal is rounded, and a touch may read as 1e-16 apart.
+    // Along a slanted segment the foot or the normal is rounded, and touching may be computed as 1e-16 apart.
     assert!(
         missed[0] + missed[1] < touching / 50,
         "{missed:?} of {touching} that touch exactly, called apart"
     );
 }
 
-/// A ball, a ray's end, a triangle's corner: touching in one point of short coordinates, near and far.
+/// A ball, a segment's end, a triangle's corner: touching in one point with short coordinates, near and far.
 #[test]
 fn touching_in_one_short_point_is_touching() {
     let ball = Shape3::from(Sphere::new(0.5).unwrap());
@@ -254,7 +254,7 @@ fn touching_in_one_short_point_is_touching() {
     }
 }
 
-/// What the judges of any kind of body say of cases that are known beforehand.
+/// The oracles for bodies of any kind, on cases that are known beforehand.
 #[test]
 fn the_judges_know_cases_known_beforehand() {
     let segment = |from: Vec3, to: Vec3| Shape3::from(Segment3::new(from, to).unwrap());
@@ -267,11 +267,11 @@ fn the_judges_know_cases_known_beforehand() {
     let known: [(&Shape3, &Shape3, [f64; 3], f64); 13] = [
         (&ball, &ball, [3.0, 0.0, 4.0], 4.0),
         (&ball, &ball, [0.0, 0.0, 0.0], -1.0),
-        // Two needles on one line: side by side with themselves, end to end, and apart.
+        // Two collinear needles: overlapping, end to end, and apart.
         (&needle, &needle, [0.0, 0.0, 0.5], 0.0),
         (&needle, &needle, [0.0, 0.0, 2.5], 0.5),
         (&needle, &needle, [0.0, 3.0, 4.0], 13.0_f64.sqrt()),
-        // Through a triangle, nearest to its lower edge; up to its middle; and past its corner.
+        // Through a triangle, nearest to its lower edge; up to its centre; and past its corner.
         (&triangle, &needle, [0.0, 0.25, 0.0], -0.25),
         (&triangle, &needle, [0.0, 0.5, 0.875], -0.125),
         (&triangle, &needle, [4.0, 0.0, 0.0], 3.0),

@@ -1,4 +1,4 @@
-//! What a shape says of itself: its box, its furthest points, what it holds, its bounding ball.
+//! What a shape reports about itself: its AABB, support points, containment, bounding ball.
 
 use asunder_geometry::{Aabb2, Aabb3, Pose2, Pose3, Shape2, Shape3};
 use asunder_tests::cases::Random;
@@ -19,7 +19,7 @@ fn shape2(round: usize, random: &mut Random) -> Shape2 {
     kind.1(&mut Clay::new(random, SIZES[round / KINDS2.len() % SIZES.len()]))
 }
 
-/// The box is what the judges' vertices and radii need, and at most two f32 steps more.
+/// The AABB contains the oracles' vertices and radii, and is wider by at most two f32 ulps.
 #[test]
 fn boxes_of_every_kind_in_space_hold_it_and_little_more() {
     let mut random = Random::new(7400);
@@ -46,7 +46,7 @@ fn boxes_of_every_kind_in_space_hold_it_and_little_more() {
                 &format!("{shape:?} at {pose:?}"),
             );
         }
-        // And any point that the shape calls its furthest.
+        // And any support point that the shape reports.
         for _ in 0..8 {
             let local = shape.support(random.direction()).unwrap();
             let point = pose.transform(local);
@@ -88,14 +88,14 @@ fn shape_reach2(shape: &Shape2) -> f64 {
     f64::from(shape.outer_radius()) + f64::from(shape.center().length())
 }
 
-/// Vertices of hulls, and so of compounds, are turned in f32, eight at a time: four units of 2^-24 of a sum of three
+/// Vertices of hulls, and so of compounds, are rotated in f32, eight at a time: four units of 2^-24 of a sum of three
 /// terms.
 fn room(shape: &Shape3) -> f64 {
     let is_of_hulls = matches!(shape, Shape3::Hull(_) | Shape3::Compound(_));
     if is_of_hulls { 5e-7 * shape_reach3(shape) } else { 0.0 }
 }
 
-/// What `low` and `high` may be off by, and how much wider the box may be.
+/// Checks one side; `noise` is the error of `low` and `high`, `room` how much wider the AABB may be.
 fn check_side([min, max]: [f32; 2], [low, high]: [f64; 2], [noise, room]: [f64; 2], what: &str) {
     let (least, most) = (f64::from(min), f64::from(max));
     assert!(least <= low + noise && most >= high - noise, "{min}..{max} loses {low}..{high}: {what}");
@@ -127,7 +127,7 @@ fn boxes_of_every_kind_in_the_plane_hold_it_and_little_more() {
     }
 }
 
-/// A half-space whose turned normal is an axis ends there, and nowhere else.
+/// A half-space whose rotated normal is an axis is bounded on that side, and nowhere else.
 #[test]
 fn a_floor_ends_at_its_own_plane() {
     use asunder_geometry::{HalfPlane, HalfSpace};
@@ -146,8 +146,8 @@ fn a_floor_ends_at_its_own_plane() {
     assert!(floor.support(DVec3::Y).is_none() && floor.core().vertices().is_empty());
 }
 
-/// Furthest points are in the shape, nothing is beyond them, and the bounding ball holds them; all else of the ball of
-/// directions is beyond.
+/// Support points are in the shape, nothing lies beyond them, and the bounding ball contains them; random points of
+/// that ball are contained as the oracle says.
 #[test]
 fn furthest_points_of_every_kind_in_space_are_its_own() {
     let mut random = Random::new(7402);
@@ -170,7 +170,7 @@ fn furthest_points_of_every_kind_in_space_are_its_own() {
                 from_center <= f64::from(shape.outer_radius()) * (1.0 + 1e-14),
                 "{from_center}: {shape:?}"
             );
-            // What is beyond by more than rounding is not held; what is within is, where there is an inside.
+            // Points beyond it by more than rounding are not contained; points within are, if there is an interior.
             assert!(!shape.contains(point + direction * (1e-6 * size)), "beyond {direction}: {shape:?}");
         }
         for _ in 0..10 {
@@ -203,7 +203,7 @@ fn furthest_points_of_every_kind_in_the_plane_are_its_own() {
             let direction = random.direction2();
             let point = shape.support(direction * random.between(1e-3, 1e3)).unwrap();
             let reach = reach2(&pieces, direction);
-            // A part's stored rotation is one only up to rounding, and takes its radius along.
+            // A part's stored rotation has length one only up to rounding, and scales its radius, too.
             assert!((point.dot(direction) - reach).abs() <= 1e-7 * size, "{point} for {reach}: {shape:?}");
             let from_center = (point - center).length();
             assert!(

@@ -1,4 +1,4 @@
-//! What is no shape of the round, flat, endless and composed kinds is refused, with its data and what to do.
+//! Invalid round, flat, unbounded and compound shapes are rejected, with their data and what to do.
 
 use asunder_geometry::{
     Capsule2, Capsule3, CapsuleError, Circle, Compound2, Compound3, CompoundError, Cuboid, DirectionError,
@@ -161,7 +161,7 @@ fn parts_that_make_no_compound() {
     assert!(Compound3::new([(Pose3::at([999_998.5, 0.0, 0.0]).unwrap(), ball)]).is_ok());
 }
 
-/// Errors are for people too: each says what to do about it, and the number or place that was wrong.
+/// Errors are for people, too: each says what to do about it, and which number or index was wrong.
 #[test]
 fn messages_say_what_to_do() {
     let messages: [(Box<dyn Error>, [&str; 2]); 14] = [

@@ -1,4 +1,4 @@
-//! Properties of lattice shapes that shrink to a small case where they fail.
+//! Properties of lattice shapes, where a failing case is shrunk to a small one.
 
 use crate::shapes::Judged;
 use asunder_geometry::{Capsule3, Hull, Pose3, Segment3, Shape3, Sphere, Triangle3};
@@ -13,7 +13,7 @@ fn place() -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-3_i8..=3).prop_map(|at| Vec3::from_array(at.map(f32::from)))
 }
 
-/// The simplest shape that the points span, sharp.
+/// The simplest sharp shape that the points span.
 fn spanned(points: &[Vec3]) -> Option<Shape3> {
     match *points {
         [from, to] => Some(Segment3::new(from, to).ok()?.into()),
@@ -39,14 +39,14 @@ fn any_kind() -> impl Strategy<Value = Shape3> {
     prop_oneof![2 => sharp(), 1 => rounded, 1 => capsule, 1 => ball]
 }
 
-/// No turn, quarter turns, and one that is none of these.
+/// No rotation, quarter turns, and one that is neither.
 fn turn() -> impl Strategy<Value = Quat> {
     let q = |x: f32, y: f32, z: f32, w: f32| Just(Quat::from_xyzw(x, y, z, w));
     prop_oneof![q(0.0, 0.0, 0.0, 1.0), q(1.0, 0.0, 0.0, 1.0), q(0.0, 0.0, 1.0, -1.0), q(1.0, 2.0, -1.0, 3.0)]
 }
 
 proptest! {
-    // The seed is fixed: a failure here must be one everywhere. Widen the net with PROPTEST_CASES and another seed.
+    // The seed is fixed: a failure must fail everywhere. For a wider search use PROPTEST_CASES and another seed.
     #![proptest_config(ProptestConfig {
         cases: 3000,
         rng_seed: RngSeed::Fixed(0x0A5D),

@@ -1,4 +1,4 @@
-//! Worlds of bodies of every kind: floors without end, balls that fall on them, compounds with several manifolds.
+//! Worlds of bodies of every kind: unbounded floors, balls that fall on them, compounds with several manifolds.
 
 use asunder::{
     Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Event, HalfPlane, HalfSpace, Pose2, Pose3,
@@ -10,7 +10,7 @@ use asunder_tests::cases::{Case2, Case3, Random};
 use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
 use glam::{Vec2, Vec3};
 
-/// Down a metre a step and up again: one `Began` where it reaches the floor, one `Ended` where it leaves.
+/// Down a metre per step and up again: one `Began` where it reaches the floor, one `Ended` where it leaves.
 #[test]
 fn a_ball_that_bounces_off_an_endless_floor() {
     for far in [0.0, 1e6, 9e8] {
@@ -24,7 +24,7 @@ fn a_ball_that_bounces_off_an_endless_floor() {
             world.set_pose(ball, at(height)).unwrap();
             world.update();
             let candidates: Vec<_> = world.candidates().collect();
-            // The floor's box ends at its plane, as its normal is an axis.
+            // The floor's AABB ends at its plane, since its normal is an axis.
             assert_eq!(candidates.contains(&(floor, ball)), height <= 0.625 + 1e-6, "at {height} m");
             let contact = world.contact(floor, ball);
             assert_eq!(contact.is_some(), height <= 0.625, "at {height} m");
@@ -81,7 +81,7 @@ fn a_compound_makes_one_contact_with_several_manifolds() {
     assert_eq!(contact.manifolds.iter().map(|manifold| manifold.part_b).collect::<Vec<_>>(), [0, 1]);
 }
 
-/// A crowd of all kinds and a floor: the contacts are those of all pairs, by the judges and without any box.
+/// A crowd of all kinds and a floor: the contacts are those of all pairs, by the oracles and without any AABB.
 #[test]
 fn contacts_of_a_crowd_of_every_kind_are_those_of_all_pairs() {
     let (mut contacts, mut overlapping) = (0, 0);

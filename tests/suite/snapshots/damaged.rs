@@ -1,4 +1,4 @@
-//! Snapshots that were cut, changed or made up: an error that says what is wrong, or a world that works.
+//! Snapshots that were truncated, changed or made up give an error that says what is wrong, or a world that works.
 
 use super::{ROOM, Stored, act, assert_equal_texts, shown};
 use asunder::glam::Vec3;
@@ -7,7 +7,7 @@ use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use serde_json::{Value, json};
 
-/// Something of everything: stale keys, margins, sensors, hooks' edits, empty slots.
+/// A world with something of everything: stale keys, margins, sensors, edits by hooks, empty slots.
 fn eventful() -> Value {
     let mut random = Random::new(1002);
     let (mut worlds, mut keys) = (vec![World3::new()], Vec::new());
@@ -23,7 +23,7 @@ fn eventful() -> Value {
     }
 }
 
-/// Restores what was changed, with its checksum made right: judged by all else.
+/// Restores a changed snapshot after correcting its checksum, so that only the other checks can reject it.
 fn judged(mut changed: Value) -> Result<World3, String> {
     for _ in 0..2 {
         let snapshot: Snapshot3 = match serde_json::from_value(changed.clone()) {
@@ -38,7 +38,7 @@ fn judged(mut changed: Value) -> Result<World3, String> {
     panic!("a checksum that its own finding does not mend")
 }
 
-/// A world that works: updates, moves, and answers.
+/// Asserts that a world works: updates, moves, and answers queries.
 fn exercise(mut world: World3) {
     let random = &mut Random::new(1003);
     world.set_max_pairs(1 << 20);
@@ -144,7 +144,7 @@ fn what_contradicts_itself_is_refused_by_name() {
     refused(&|c| c["slots"][body]["body"]["pose"]["position"][0] = json!(1e300), "beyond");
 }
 
-/// Every leaf of the text made something else, one at a time, the checksum mended: refused, or a world that works.
+/// Every leaf of the text is changed, one at a time, and the checksum corrected: it is rejected, or the world works.
 #[test]
 fn a_snapshot_with_anything_changed_is_refused_or_works() {
     let whole = eventful();
@@ -245,7 +245,7 @@ impl Float {
     }
 }
 
-/// Cut anywhere, or with bytes changed: an error, never a panic.
+/// Truncated anywhere, or with bytes changed: an error, never a panic.
 #[test]
 fn damaged_text_is_refused() {
     let text = Volume::text(&judged(eventful()).unwrap());
@@ -278,7 +278,7 @@ fn resting() -> Value {
         (world.insert(body), height)
     });
     world.update();
-    // What has just come is not known to rest.
+    // A body that has just been inserted is not known to rest.
     for (key, height) in crates {
         world.set_pose(key, at(height - 1e-7)).unwrap();
     }
@@ -286,7 +286,7 @@ fn resting() -> Value {
     serde_json::to_value(world.snapshot()).unwrap()
 }
 
-/// Symptom: an error of the greatest f32 was restored with what is kept to be moved along, and told as infinite.
+/// Symptom: an error of the greatest f32 was restored with a manifold kept to be moved along, and reported as infinite.
 #[test]
 fn what_is_kept_has_lengths_that_can_be() {
     let whole = resting();

@@ -1,5 +1,5 @@
-//! Two machines play one game. Inputs come late, what was guessed is taken back and played again, and both end in the
-//! same bits as a machine that knew everything in time.
+//! Two machines play one game. Inputs arrive late; wrongly predicted frames are rolled back and played again, and both
+//! end in the same bits as a machine that had every input in time.
 
 use super::{Stored, assert_equal_texts};
 use asunder::glam::{Vec2, Vec3};
@@ -15,7 +15,7 @@ const FRAMES: usize = 60;
 /// Half of the side of the room, in metres.
 const ROOM: f64 = 3.0;
 
-/// What stands still and is nobody's.
+/// Bodies of the level, which stand still and belong to nobody.
 trait Level: Stored {
     fn level() -> Vec<Collider<Self>>;
 }
@@ -42,18 +42,18 @@ impl Level for Plane {
     }
 }
 
-/// All that the next frame is made of.
+/// Everything that determines the next frame.
 #[derive(Clone)]
 struct Game<S: Stored> {
     world: World<S>,
-    /// Of all bodies that ever were, the gone ones too.
+    /// Of all bodies that ever existed, including removed ones.
     keys: Vec<S::Key>,
 }
 
-/// What a player does in a frame: a seed of it.
+/// What a player does in a frame, given as a seed.
 type Input = u128;
 
-/// Players change their minds every other frame.
+/// Players change their inputs every other frame.
 fn input_of(player: usize, frame: usize) -> Input {
     (1000 * player + frame / 2) as Input
 }
@@ -88,8 +88,8 @@ impl<S: Level> Game<S> {
         }
     }
 
-    /// Both players' deeds, then an update, and what the game makes of it: so that what is kept of a frame holds
-    /// motions and moves that no update has seen.
+    /// Both players' actions, then an update, and the game's reaction: so that the state saved for a frame contains
+    /// motions and moves that no update has processed.
     fn step(&mut self, inputs: [Input; 2]) {
         for input in inputs {
             let random = &mut Random::new(1200 + input);
@@ -108,7 +108,7 @@ impl<S: Level> Game<S> {
         }
     }
 
-    /// What the last frame said, bit for bit: `Debug` tells all numbers apart.
+    /// The output of the last frame, bit for bit: `Debug` distinguishes all numbers.
     fn said(&self) -> [String; 4] {
         let world = &self.world;
         let (candidates, contacts) = (S::candidates(world), S::contacts(world));
@@ -121,7 +121,7 @@ impl<S: Level> Game<S> {
     }
 }
 
-/// The game as it was before a frame.
+/// The saved state of the game before a frame.
 enum Past<S: Stored> {
     Clone(Box<Game<S>>),
     Text(String, Vec<S::Key>),
@@ -136,19 +136,19 @@ impl<S: Stored> Past<S> {
     }
 }
 
-/// One of the two computers.
+/// One of the two machines.
 struct Machine<S: Stored> {
     player: usize,
-    /// Whether it keeps clones or text.
+    /// Whether it saves clones or text.
     clones: bool,
     threads: ThreadPool,
     past: Vec<Past<S>>,
     now: Game<S>,
-    /// What every frame said, when it was last played.
+    /// The output of every frame, from when it was last played.
     said: Vec<[String; 4]>,
-    /// What the other player did, as far as it is known.
+    /// The other player's inputs, as far as they are known.
     known: Vec<Input>,
-    /// Frames that were played again and said something else then.
+    /// Frames that were played again with another output.
     corrected: usize,
 }
 
@@ -159,7 +159,7 @@ impl<S: Level> Machine<S> {
         Self { player, clones, threads, past, now, said, known, corrected: 0 }
     }
 
-    /// The other's input: the true one, or the last one known.
+    /// The other player's input: the true one, or the last one known.
     fn other(&self, frame: usize) -> Input {
         self.known.get(frame).or(self.known.last()).copied().unwrap_or(0)
     }
@@ -185,7 +185,8 @@ impl<S: Level> Machine<S> {
         }
     }
 
-    /// The other's next input comes in. If it was guessed wrong, back to its frame, and on again to now.
+    /// Receives the other player's next input. If it was predicted wrongly, rolls back to its frame, and plays on to
+    /// now.
     fn receive(&mut self, input: Input) {
         let (frame, now) = (self.known.len(), self.past.len());
         let guess = self.other(frame);
@@ -207,7 +208,7 @@ fn check<S: Level>(bodies: usize, machines: [(bool, usize); 2]) {
             host.said()
         })
         .collect();
-    // Chunks of 256: more than one, or there is nothing for threads to share.
+    // More than one chunk of 256, or there is nothing for threads to share.
     assert!(most_pairs > 300, "{most_pairs} pairs");
     let text = S::text(&host.world);
     let mut machines = [0, 1].map(|player| Machine::<S>::new(player, bodies, machines[player]));
@@ -221,7 +222,7 @@ fn check<S: Level>(bodies: usize, machines: [(bool, usize); 2]) {
             let arrived = if frame + 1 == FRAMES + 8 { FRAMES } else { arrived };
             while machine.known.len() < arrived {
                 machine.receive(input_of(1 - machine.player, machine.known.len()));
-                // Nothing that is known for certain is taken back.
+                // Frames with confirmed inputs are final.
                 let confirmed = machine.known.len().min(machine.said.len());
                 assert!(machine.said[..confirmed] == truth[..confirmed], "after {frame} frames");
             }
@@ -232,7 +233,7 @@ fn check<S: Level>(bodies: usize, machines: [(bool, usize); 2]) {
         assert!(machine.now.keys == host.keys && machine.said == truth);
         assert_equal_texts(&S::text(&machine.now.world), &text, machine.player as u128);
     }
-    // There was something of everything to be taken back.
+    // There was something of each kind to be rolled back.
     for (what, name) in ["candidates", "contacts", "events", "impacts"].into_iter().enumerate() {
         let frames = truth.iter().filter(|said| said[what] != "[]").count();
         assert!(frames > FRAMES / 2, "{name} in {frames} frames");

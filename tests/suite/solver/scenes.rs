@@ -1,4 +1,4 @@
-//! What shall stand.
+//! Scenes that must stand.
 
 use asunder_geometry::{Cuboid, Hull, Pose3, Shape3};
 use asunder_scenes::pairs::{SolidKind, solids};
@@ -10,7 +10,7 @@ pub(super) fn cuboid(half: Vec3) -> Shape3 {
     Cuboid::from_half_extents(half).unwrap().into()
 }
 
-/// The same as a hull.
+/// The same box as a hull.
 pub(super) fn crate_hull(half: Vec3) -> Shape3 {
     let corner = |i: u32| half * Vec3::new(sign(i & 1), sign(i & 2), sign(i & 4));
     Hull::from_points(&(0..8).map(corner).collect::<Vec<Vec3>>()).unwrap().into()
@@ -20,9 +20,9 @@ fn sign(bit: u32) -> f32 {
     if bit == 0 { -1.0 } else { 1.0 }
 }
 
-/// An upright prism over a regular octagon between two circles, the inner of radius 0.5, and 1 m high.
+/// An upright prism over a regular octagon with an inscribed circle of radius 0.5, 1 m high.
 pub(super) fn octagon() -> Shape3 {
-    // The tangent of an eighth of a turn halved.
+    // The tangent of half of an eighth of a turn.
     let t = core::f64::consts::SQRT_2 - 1.0;
     let around = [(1.0, t), (t, 1.0), (-t, 1.0), (-1.0, t), (-1.0, -t), (-t, -1.0), (t, -1.0), (1.0, -t)];
     let corner = |(x, z): (f64, f64)| [-0.5, 0.5].map(|y| DVec3::new(0.5 * x, y, 0.5 * z).as_vec3());
@@ -46,7 +46,7 @@ pub(super) fn on_floor(settings: Settings) -> Solver {
     solver
 }
 
-/// Ten alike upon each other, each turned about the vertical from the one below.
+/// Ten equal bodies on top of each other, each rotated about the vertical relative to the one below.
 pub(super) fn stack(shape: &Shape3, height: f64, twist: f64, settings: Settings) -> Solver {
     let mut solver = on_floor(settings);
     let mut turn = DQuat::IDENTITY;
@@ -69,13 +69,13 @@ pub(super) fn pyramid(shape: &Shape3, settings: Settings) -> Solver {
     solver
 }
 
-/// Two thin boxes that lean against each other, each so far from upright by the tangent of half the angle.
+/// Two thin boxes that lean against each other; `half_tangent` is the tangent of half the angle from upright.
 pub(super) fn cards(half_tangent: f64, settings: Settings) -> Solver {
     let half = DVec3::new(0.02, 0.5, 0.35);
     let mut solver = on_floor(settings);
     let square = half_tangent * half_tangent;
     let (sin, cos) = (2.0 * half_tangent / (1.0 + square), (1.0 - square) / (1.0 + square));
-    // The lowest corner stands on the floor, the innermost touches the other card's.
+    // The lowest corner is on the floor, the innermost touches the other card's.
     let (up, aside) = (half.y * cos + half.x * sin, half.y * sin + half.x * cos);
     for side in [-1.0, 1.0] {
         solver.add(
@@ -87,7 +87,7 @@ pub(super) fn cards(half_tangent: f64, settings: Settings) -> Solver {
     solver
 }
 
-/// Solids of one family, turned anyhow, above the floor and clear of each other.
+/// Solids of one family in random orientations, above the floor and apart from each other.
 pub(super) fn dropped(kind: SolidKind) -> Solver {
     let mut solver = on_floor(Settings::default());
     let mut random = Random::new(5);

@@ -1,4 +1,5 @@
-//! Bodies at rest: a face, an edge or an end on a level ground, sunk a little, and all of it turned and moved anywhere.
+//! Bodies at rest: a face, an edge or an end on level ground, slightly sunk in, and all of it rotated and moved
+//! anywhere.
 
 use asunder_geometry::{Capsule3, Cuboid, HalfSpace, Pose3, Shape3};
 use asunder_tests::cases::Random;
@@ -16,7 +17,7 @@ pub(super) struct Rest {
     pub(super) size: f64,
 }
 
-/// What may lie on something: boxes, hulls, prisms, capsules, by turns.
+/// A body that may lie on something: a box, hull, prism or capsule, in turns.
 fn body(random: &mut Random, round: usize) -> Shape3 {
     match round % 4 {
         0 => random.cuboid(),
@@ -35,12 +36,12 @@ fn body(random: &mut Random, round: usize) -> Shape3 {
     }
 }
 
-/// The quaternion's product in f64 before it is rounded once to f32, as a game's would be at best.
+/// The product of quaternions in f64, rounded once to f32, as a game's would be at best.
 fn rounded(q: DQuat) -> Quat {
     Quat::from_array(q.normalize().to_array().map(|c| c as f32))
 }
 
-/// A direction of the body that may point down: a face's, or those of a capsule lying and standing.
+/// A direction of the body that may point down: a face normal, or those of a capsule lying and standing.
 fn downwards(random: &mut Random, body: &Shape3) -> DVec3 {
     let core = body.core();
     match core.normals() {
@@ -49,7 +50,7 @@ fn downwards(random: &mut Random, body: &Shape3) -> DVec3 {
     }
 }
 
-/// A level ground and its height: a slab, a half-space, or the face of another body.
+/// Level ground, its rotation and its height: a slab, a half-space, or the face of another body.
 fn ground(random: &mut Random, round: usize) -> (Shape3, DQuat, f64) {
     let level = |shape: &Shape3, turn: DQuat| {
         let heights = shape.core().vertices().iter().map(|v| (turn * v.as_dvec3()).y).collect::<Vec<_>>();
@@ -59,7 +60,7 @@ fn ground(random: &mut Random, round: usize) -> (Shape3, DQuat, f64) {
         0 => (Cuboid::from_half_extents(Vec3::new(4.0, 0.5, 4.0)).unwrap().into(), DQuat::IDENTITY, 0.5),
         1 => (HalfSpace::new(Vec3::Y).unwrap().into(), DQuat::IDENTITY, 0.0),
         _ => {
-            // Of any kind but a hull of tiny facets, on which nothing rests.
+            // Of any kind except a hull of tiny facets, on which nothing rests.
             let kind = [0, 2, 3][random.below(3)];
             let shape = body(random, kind);
             let normals = shape.core().normals().to_vec();
@@ -71,7 +72,7 @@ fn ground(random: &mut Random, round: usize) -> (Shape3, DQuat, f64) {
     }
 }
 
-/// The middle of what is highest.
+/// The centre of the highest feature.
 fn top(ground: &Shape3, turn: DQuat, height: f64) -> DVec3 {
     let core = ground.core();
     let turned = core.vertices().iter().map(|v| turn * v.as_dvec3());
@@ -80,11 +81,11 @@ fn top(ground: &Shape3, turn: DQuat, height: f64) -> DVec3 {
     highest.iter().sum::<DVec3>() / highest.len().max(1) as f64
 }
 
-/// The `round`-th rest of a seed, sunk by 1e-5 to 1e-3 of the body's size.
+/// The `round`-th rest of a seed, sunk in by 1e-5 to 1e-3 of the body's size.
 pub(super) fn rest(random: &mut Random, round: usize) -> Rest {
     loop {
         let rest = laid(random, round);
-        // On a narrow face it may have been laid beside the ground.
+        // On a narrow face it may have been placed beside the ground.
         if exact_overlap3((&rest.ground, &rest.here), (&rest.body, &rest.there)) {
             return rest;
         }
@@ -102,16 +103,16 @@ fn laid(random: &mut Random, round: usize) -> Rest {
     let lowest = turned.iter().map(|v| v.y).fold(f64::INFINITY, f64::min) - f64::from(body.radius());
     let size = f64::from(body.outer_radius());
     let sunk = size * random.pick(&[1e-5, 3e-5, 1e-4, 3e-4, 1e-3]);
-    // The foot's middle near the ground's own centre, so that most of it stands on something.
+    // The foot's centre is placed near the ground's centre, so that most of it is supported.
     let foot: Vec<&DVec3> =
         turned.iter().filter(|v| v.y - f64::from(body.radius()) - lowest < 1e-4 * size).collect();
     let middle = foot.iter().copied().sum::<DVec3>() / foot.len() as f64;
     let center = top(&ground, turn, height);
     let place = DVec3::new(center.x - middle.x, height - lowest - sunk, center.z - middle.z);
-    // On the crown of a capsule there is no room.
+    // On the crown of a capsule there is no room to move aside.
     let room = if ground.radius() > 0.0 { 0.0 } else { 0.05 };
     let aside = DVec3::new(random.between(-room, room), 0.0, random.between(-room, room));
-    // And now the ground, with all that stands on it, somewhere else.
+    // Finally the ground, with all that stands on it, is moved somewhere else.
     let q = random.quaternion();
     let all = DQuat::from_xyzw(q.x.into(), q.y.into(), q.z.into(), q.w.into()).normalize();
     let origin = random.vector() * random.pick(&[1.0, 4.0]);

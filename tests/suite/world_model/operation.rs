@@ -1,8 +1,8 @@
-//! What may be done to a world, one after the other.
+//! Operations on a world.
 
 use proptest::prelude::*;
 
-/// One thing done to a world. Bodies are named by the order in which they came, gone ones included.
+/// An operation on a world. Bodies are numbered in order of insertion, including removed ones.
 #[derive(Clone, Debug)]
 pub(super) enum Operation {
     Insert {
@@ -19,25 +19,25 @@ pub(super) enum Operation {
         body: usize,
         seed: u64,
     },
-    /// Some bodies at once, with keys of gone ones among them.
+    /// Moves some bodies at once, with keys of removed ones among them.
     MoveMany {
         seed: u64,
     },
-    /// Moves a body by a hair, or by a few of them.
+    /// Moves a body by a tiny amount, once or a few times.
     Nudge {
         body: usize,
         seed: u64,
     },
-    /// Moves a body to where grids touch.
+    /// Moves a body onto the grid, where bodies touch exactly.
     Settle {
         body: usize,
         seed: u64,
     },
-    /// Moves a body to where it is.
+    /// Sets a body's pose to its present pose.
     Stay {
         body: usize,
     },
-    /// Says what a body is about to do.
+    /// Sets a body's motion.
     Motion {
         body: usize,
         seed: u64,
@@ -45,22 +45,22 @@ pub(super) enum Operation {
     Remove {
         body: usize,
     },
-    /// Changes what a body is.
+    /// Changes a property of a body.
     Change {
         body: usize,
         seed: u64,
     },
     Clear,
-    /// Goes on with a clone.
+    /// Continues with a clone.
     Clone,
-    /// Goes on with what a text of the world gives.
+    /// Continues with a world restored from text.
     Restore,
     Update,
     /// Updates with both hooks.
     UpdateWith {
         seed: u64,
     },
-    /// Updates where so many pairs are allowed.
+    /// Updates with a limit on the number of pairs.
     UpdateWithin {
         most: usize,
     },
@@ -76,7 +76,7 @@ fn of_body(weight: u32, make: fn(usize, u64) -> Operation) -> Weighted {
     (weight, (0..1_usize << 20, any::<u64>()).prop_map(move |(body, seed)| make(body, seed)).boxed())
 }
 
-/// Bodies that come, jump, change and go: of their contacts every bit is known.
+/// Bodies that come, jump, change and go: every bit of their contacts is known.
 fn of_jumps() -> Vec<Weighted> {
     vec![
         of_seed(40, |seed| Operation::Insert { seed }),
@@ -95,7 +95,7 @@ pub(super) fn jump() -> impl Strategy<Value = Operation> {
     proptest::strategy::Union::new_weighted(of_jumps())
 }
 
-/// Everything that can be done to a world.
+/// All operations.
 pub(super) fn anything() -> impl Strategy<Value = Operation> {
     let mut all = of_jumps();
     all.extend([

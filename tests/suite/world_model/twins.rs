@@ -1,4 +1,5 @@
-//! A world and its model, told the same; and the worlds that it was cloned or restored from, told the same too.
+//! A world and its model, given the same operations; and the worlds that it was cloned or restored from, given the
+//! same, too.
 
 use super::operation::Operation;
 use crate::stored::Stored;
@@ -19,20 +20,20 @@ impl Stage for Volume {}
 /// Half of the side of the room, in metres: bodies of a metre meet often in it.
 pub(super) const ROOM: f64 = 1.6;
 
-/// Bodies beyond this are not let in: all pairs of them are compared.
+/// No bodies are inserted beyond this number, since all pairs are compared.
 const MOST_BODIES: usize = 30;
 
-/// Ground beyond this is not let in: much of the room is near it.
+/// No ground is inserted beyond this number: much of the room is near it.
 const MOST_GROUNDS: usize = 2;
 
-/// So many worlds follow at once. The first that ever did stays to the end; of the others the oldest goes.
+/// The number of originals that follow at once. The first one stays to the end; of the others the oldest is dropped.
 const MOST_FOLLOWERS: usize = 3;
 
 pub(super) struct Twins<S: Stage> {
     world: World<S>,
-    /// Those that the world was cloned or restored from: they must say what it says.
+    /// Worlds from which this one was cloned or restored: they must report the same.
     originals: Vec<World<S>>,
-    /// One that follows no longer, and has another past by now.
+    /// A world that no longer follows, whose history has diverged.
     left: Option<World<S>>,
     model: NaiveWorld<S>,
     keys: Vec<S::Key>,
@@ -64,18 +65,18 @@ impl<S: Stage> Twins<S> {
         self.model.tally
     }
 
-    /// One of the bodies that are there; or, one time in eight, one of all that ever were.
+    /// One of the existing bodies; or, one time in eight, one of all that ever existed.
     fn key(&self, body: usize) -> S::Key {
         let alive = S::bodies(&self.world);
         match (body % 8, alive.len(), self.keys.len()) {
-            // Before there is any body, the null key stands for one that never was.
+            // Before there is any body, the null key stands for one that never existed.
             (.., 0) => S::Key::null(),
             (0, _, ever) | (_, 0, ever) => self.keys[body / 8 % ever],
             (_, there, _) => alive[body / 8 % there].0,
         }
     }
 
-    /// Does the same to the world and to those that follow it, which must answer alike.
+    /// Does the same to the world and its originals, which must return the same.
     fn tell<A: PartialEq + core::fmt::Debug>(&mut self, act: impl Fn(&mut World<S>) -> A) -> A {
         let answer = act(&mut self.world);
         for original in &mut self.originals {
@@ -155,7 +156,7 @@ impl<S: Stage> Twins<S> {
         self.check_keys();
     }
 
-    /// Of any kind, or a unit body on the grid; every third is a bullet.
+    /// A body of any kind, or a unit body on the grid; every third is a bullet.
     fn random_body(&self, random: &mut Random) -> Collider<S> {
         let body = match random.below(8) {
             0 if !self.is_to_the_bit => S::moved(S::unit_at(0.0), S::on_grid(random, ROOM)),
@@ -189,7 +190,7 @@ impl<S: Stage> Twins<S> {
                 let random = &mut Random::new(seed.into());
                 let mut place = || (self.key(random.below(1 << 20)), S::random_pose(random, ROOM));
                 let poses: Vec<_> = (0..4).map(|_| place()).collect();
-                // All are moved whose keys are fresh, also after a stale one.
+                // All bodies with fresh keys are moved, even after a stale one.
                 let stale = poses.iter().filter(|(key, pose)| !self.model.set_pose(*key, *pose)).count();
                 let moved = self.tell(|world| S::set_poses(world, poses.clone()));
                 assert_eq!(moved, stale == 0, "a stale key among many is told of, and moves nobody");
@@ -220,7 +221,7 @@ impl<S: Stage> Twins<S> {
         assert_eq!(set, was_there, "a stale key goes nowhere");
     }
 
-    /// A third of the pairs is refused, and of each contact some manifolds go.
+    /// Updates with hooks that reject a third of the pairs, and remove some manifolds of each contact.
     fn update_with(&mut self, seed: u64) {
         let dice = |a: &Collider<S>, b: &Collider<S>| {
             a.get_user_data().wrapping_mul(31).wrapping_add(b.get_user_data()).wrapping_add(seed) % 3
@@ -235,7 +236,7 @@ impl<S: Stage> Twins<S> {
         self.check();
     }
 
-    /// The world that was is left beside the one that it became.
+    /// Continues with `world`; the previous one becomes an original.
     fn go_on_with(&mut self, world: World<S>) {
         if self.originals.len() >= MOST_FOLLOWERS {
             self.left = Some(self.originals.remove(1));
@@ -251,7 +252,7 @@ impl<S: Stage> Twins<S> {
         self.check_originals();
     }
 
-    /// What was cloned or restored says what the original says.
+    /// Asserts that the originals report the same as the world.
     fn check_originals(&self) {
         for original in &self.originals {
             assert_eq!(S::events(original), S::events(&self.world), "events of the original");
@@ -266,7 +267,7 @@ impl<S: Stage> Twins<S> {
         }
     }
 
-    /// At the end of a list also what does not show yet is the same, in every bit.
+    /// At the end of a list, state that is not visible yet is the same, too, in every bit.
     pub(super) fn finish(&self) {
         let checksum = S::checksum(&self.world);
         assert!(self.originals.iter().all(|original| S::checksum(original) == checksum));
@@ -286,8 +287,8 @@ impl<S: Stage> Twins<S> {
     }
 }
 
-/// A fresh world with the same bodies in the same order has the same contacts, bit for bit: history leaves nothing
-/// behind but which contacts are new.
+/// A fresh world with the same bodies in the same order has the same contacts, bit for bit: history affects only which
+/// contacts are new.
 fn check_fresh<S: Engine>(world: &World<S>) {
     let bodies = S::bodies(world);
     let mut fresh = World::new();

@@ -1,4 +1,4 @@
-//! Shapes and poses in other units of length: every number times a power of two, or nothing where a bit would be lost.
+//! Shapes and poses in other units of length: every number times a power of two, or `None` where a bit would be lost.
 
 use asunder_geometry::tolerance::MAX_POSITION;
 use asunder_geometry::{
@@ -13,9 +13,9 @@ pub(super) fn power_of_two(k: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(k)) as u64) << 52)
 }
 
-/// The same thing in units of 2^-k metres.
+/// The same value in units of 2^-k metres.
 pub(super) trait InUnits: Sized {
-    /// Nothing where a number would be rounded, or a shape refused.
+    /// `None` where a number would be rounded, or a shape rejected.
     fn in_units(&self, k: i32) -> Option<Self>;
 }
 
@@ -23,13 +23,13 @@ impl InUnits for f32 {
     fn in_units(&self, k: i32) -> Option<Self> {
         let product = f64::from(*self) * power_of_two(k);
         let value = product as f32;
-        // Denormals in between would lose bits that squares of them need.
+        // Intermediate subnormals would lose bits, since their squares are needed.
         let is_whole = f64::from(value) == product && (value == 0.0 || value.abs() >= f32::MIN_POSITIVE);
         is_whole.then_some(value)
     }
 }
 
-/// Denormals would lose bits, and so would what lies beyond the least f32, which answers are.
+/// Subnormals would lose bits, and so would values below the least normal f32, since answers are f32.
 fn coordinate(value: f64, k: i32) -> Option<f64> {
     let least = f64::from(f32::MIN_POSITIVE);
     let product = value * power_of_two(k);
@@ -69,11 +69,12 @@ impl InUnits for Shape3 {
                 let half = vectors3(&[cuboid.half_extents()], k)?[0];
                 Cuboid::from_half_extents(half).ok()?.rounded(radius).ok()?.into()
             }
-            // The core of a rounded point has the least radius there is, a limit in metres.
+            // The core of a rounded point has the least possible radius, which is a limit in metres.
             Self::Hull(hull) if hull.dimension() == 0 => return None,
             Self::Hull(_) => {
                 let hull = Hull::of_any_dimension(&vertices).ok()?;
-                // In the order of before, or feature ids would say nothing. Built from its own vertices it keeps it.
+                // In the same order as before, or feature ids could not be compared. Built from its own vertices a hull
+                // keeps it.
                 if k != 0 {
                     assert_eq!(hull.vertices(), vertices, "2^{k} changes a hull");
                 }
@@ -134,9 +135,9 @@ impl InUnits for Shape2 {
 pub(super) struct Reach {
     /// The sum of the finite bounding radii.
     pub(super) outer: f64,
-    /// The least of all radii that are limited below: bounding ones, and those of round shapes.
+    /// The least of all radii that have a lower limit: bounding ones, and those of round shapes.
     pub(super) least: f64,
-    /// No less than how far any point of a shape is from its origin.
+    /// At least the distance of any point of a shape from its origin.
     pub(super) furthest: f64,
     /// The largest coordinate of a position.
     pub(super) position: f64,

@@ -1,12 +1,12 @@
-//! A box on a floor that is a thousand times as wide.
+//! A box on a floor a thousand times as wide.
 
 use super::{cuboid, judged};
 use asunder_geometry::{HalfSpace, Pose3, Shape3};
 use asunder_narrow::Pair3;
 use glam::{DVec3, Vec3};
 
-/// Symptom: a crate on a floor of 500 m sank in, or hovered, and stood on one point of four. Cause: what is lost to the
-/// rounding of a coordinate of 500 m in f32 is 3e-5 m, and tolerances grew with the floor.
+/// Symptom: a crate on a floor of 500 m sank in, or hovered, and stood on one point instead of four. Cause: a
+/// coordinate of 500 m is rounded by 3e-5 m in f32, and tolerances grew with the floor.
 #[test]
 fn a_box_on_a_floor_of_500_metres_stands_on_four_points() {
     let half_space: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();
@@ -19,7 +19,8 @@ fn a_box_on_a_floor_of_500_metres_stands_on_four_points() {
                 let there = Pose3::at(place + DVec3::Y * (0.25 - sunk)).unwrap();
                 let found = judged((ground, &here), (&crate_, &there));
                 assert_eq!(found.normal, Vec3::Y, "{sunk} m in at {place}");
-                // As the judge has it, but known beforehand: 0.25 - sunk is rounded to 3e-17 m.
+                // The oracle checked this too, but here the truth is known beforehand: 0.25 - sunk is rounded by 3e-17
+                // m.
                 let miss = (f64::from(found.separation) + sunk).abs();
                 assert!(miss <= f64::from(found.error) + 3e-17, "{sunk} m in at {place}: {found:?}");
                 let manifold = Pair3::new(ground, &here, &crate_, &there).manifold(0.0);
