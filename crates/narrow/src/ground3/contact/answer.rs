@@ -22,7 +22,7 @@ impl Asking<'_> {
         let how = (overlapping, is_overlap_known, least);
         // The reported separation decides, as between solids: points that the slack let in and that do not touch may be
         // reported beyond the margin.
-        if !overlapping && (least == f64::INFINITY || told(least, how) > self.margin) {
+        if !overlapping && (least == f64::INFINITY || reported(least, how) > self.margin) {
             return None;
         }
         if manifolds.is_wanted() {
@@ -43,8 +43,8 @@ impl Asking<'_> {
         to: &mut impl Room,
     ) {
         let on = self.on;
-        let [deepest, doubt] = group.told;
-        let separation = told(deepest, how);
+        let [deepest, doubt] = group.recorded;
+        let separation = reported(deepest, how);
         if separation > self.margin {
             return;
         }
@@ -70,7 +70,7 @@ impl Asking<'_> {
 }
 
 /// A group's separation as it is reported: the deepest of all has the sign of the overlap decision.
-fn told(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
+fn reported(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
     match overlapping {
         true if deepest <= least => signed(deepest, true),
         false if !is_overlap_known => signed(deepest, false),

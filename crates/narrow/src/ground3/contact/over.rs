@@ -1,6 +1,6 @@
 //! The extent of a part over a triangle's plane, which most often is the plane of the triangle before.
 
-use super::Seen;
+use super::PartTest;
 use super::facet::Facet;
 use super::prism::Prism;
 use super::standing::Extent;
@@ -16,7 +16,7 @@ pub(super) struct Plane {
     pub(super) doubt: f64,
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Sets `plane` to a triangle's plane and the part's extent over it; most often those of the triangle before are
     /// kept. Returns false where all of the part is further from the plane than the reach, on either side, or the
     /// triangle is not seen. In place: it is large.
@@ -55,7 +55,7 @@ impl Seen<'_> {
 
     /// The same for a triangle by its own plane, however far away it is; `None` where it is not seen.
     pub(super) fn plane_of(&self, number: u32) -> Option<Plane> {
-        Facet::seen(self.asking.on.ground, number, self.standing.center).map(|facet| self.over(facet))
+        Facet::facing(self.asking.on.ground, number, self.standing.center).map(|facet| self.over(facet))
     }
 
     /// The same for a triangle as seen along a direction, whichever side the part is on: beside bends of two-sided

@@ -2,13 +2,13 @@
 
 use super::facet::Facet;
 use super::groups::{Base, Pin};
-use super::{Known, Seen};
+use super::{Known, PartTest};
 use crate::feature::Feature;
 use crate::ground3::SeenAt;
 use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Processes all triangles, for a half-space with this unit normal in the ground's axes; only up to the first that
     /// it overlaps, if only yes or no is wanted.
     pub(super) fn look_at_all(&self, normal: DVec3, is_yes_enough: bool, known: &mut Known) {
