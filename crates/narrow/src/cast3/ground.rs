@@ -67,7 +67,7 @@ impl Pair3<'_> {
         if search.touches {
             return Some(self.touching_at_start());
         }
-        search.first.map(|first| told(on, passage, &first).0)
+        search.first.map(|first| impact_and_facing(on, passage, &first).0)
     }
 }
 
@@ -155,7 +155,7 @@ impl Search<'_> {
         if !is_one_sided && self.counts.is_all() {
             return false;
         }
-        let (impact, facing) = told(self.on, self.passage, first);
+        let (impact, facing) = impact_and_facing(self.on, self.passage, first);
         if is_one_sided && facing.is_left && self.stays_in_front(first, parts) {
             return true;
         }
@@ -190,7 +190,7 @@ impl Search<'_> {
 ///
 /// A body that turns may lean over an inner edge from the far side, and what is level is still decided by the ground's
 /// direction: a box that slides over a hill, pressed into it, meets the far corners from inside.
-fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
+fn impact_and_facing(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
     let met = &first.met;
     let [_, of_ground] = on.in_order([0, 1]);
     let basis = passage.turns[of_ground].map_or(on.basis, |turn| turn.basis_at(met.fraction));

@@ -69,7 +69,7 @@ fn contacts(numbers: &mut Numbers, count: usize) -> Vec<Touch3> {
 #[test]
 fn contacts_laid_out_say_what_they_say_one_by_one() {
     let mut numbers = Numbers::new(5700);
-    let mut told = [0; 3];
+    let mut outcomes = [0; 3];
     for round in 0..400 {
         let all = contacts(&mut numbers, [20, 150][round % 2]);
         let others = contacts(&mut numbers, [0, 30][round / 2 % 2]);
@@ -83,10 +83,10 @@ fn contacts_laid_out_say_what_they_say_one_by_one() {
             let (few, fewer) = if round % 3 == 0 { (None, None) } else { (Some(&touched), Some(&each)) };
             let found = parts.lies(normal, few, &beside);
             assert_eq!(found, parts.lies(normal, fewer, &each_beside), "{round} {question}");
-            told[found as usize] += 1;
+            outcomes[found as usize] += 1;
         }
     }
-    assert!(told.iter().all(|&count| count > 500), "{told:?}");
+    assert!(outcomes.iter().all(|&count| count > 500), "{outcomes:?}");
 }
 
 /// Among contacts that have nothing to do with a meeting, few are tested: only the first, where all are alike.

@@ -213,17 +213,17 @@ fn kernels_find_the_best_axis_of_all() {
                 }
             }
         }
-        for told in [sides(&a, &b, towards_b, doubt), search::sides(&a, &b, towards_b, doubt)] {
-            match told {
+        for found in [sides(&a, &b, towards_b, doubt), search::sides(&a, &b, towards_b, doubt)] {
+            match found {
                 Sides::Apart => assert!(truth.best().separation > 0.0),
                 Sides::Overlapping => assert!(truth.best().separation < 0.0),
                 Sides::Unclear => assert!(truth.best().separation.abs() <= 2.0 * doubt),
             }
         }
         if most <= 8 {
-            let told =
+            let found =
                 [few::sides([&a.few::<8>(), &b.few()], doubt), few::sides([&a.few::<16>(), &b.few()], doubt)];
-            assert_eq!(told[0], told[1]);
+            assert_eq!(found[0], found[1]);
         }
     }
     assert!(deep > 1000 && apart > 500 && gaps > 200, "{deep} {apart} {gaps}");

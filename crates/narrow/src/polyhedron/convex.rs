@@ -28,9 +28,9 @@
 //! best.
 
 mod apart;
+mod closed_form;
 mod parted;
 mod solids;
-mod told;
 
 use super::cuboids::{Cuboids, Sides};
 use super::distance::Witness;
@@ -46,7 +46,7 @@ use crate::precision::{IN_SPACE, Precision, length_at_most};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Hull, Shape3};
-use told::Ball;
+use closed_form::Ball;
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -138,13 +138,15 @@ impl<'a> Convex<'a> {
     pub(crate) fn probe(&self, asked: Asked) -> Probe {
         let limit = asked.limit;
         if let Some(ball) = self.ball() {
-            return self.told(self.told_ball(ball), limit);
+            return self.probe_closed_form(self.closed_form_of_ball(ball), limit);
         }
         match self.planes() {
-            [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
-            [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
+            [Some(a), Some(b)] => self.probe_closed_form(self.closed_form_of_half_spaces(a, b), limit),
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.probe_closed_form(self.closed_form_of_half_space(plane), limit)
+            }
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told(self.told_slender(&a, &b), limit),
+                Some([a, b]) => self.probe_closed_form(self.closed_form_of_slender(&a, &b), limit),
                 None => self.with_solids(|a, b| self.probe_solids(a, b, asked)),
             },
         }
@@ -197,15 +199,17 @@ impl<'a> Convex<'a> {
             };
         }
         if let Some(ball) = self.ball() {
-            return self.told_verdict(&self.told_ball(ball));
+            return self.closed_form_verdict(&self.closed_form_of_ball(ball));
         }
         match self.planes() {
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told_verdict(&self.told_slender(&a, &b)),
+                Some([a, b]) => self.closed_form_verdict(&self.closed_form_of_slender(&a, &b)),
                 None => self.with_solids(|a, b| self.verdict_of_solids(a, b)),
             },
-            [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
-            [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
+            [Some(a), Some(b)] => self.closed_form_verdict(&self.closed_form_of_half_spaces(a, b)),
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.closed_form_verdict(&self.closed_form_of_half_space(plane))
+            }
         }
     }
 
@@ -217,15 +221,17 @@ impl<'a> Convex<'a> {
             return cuboids.overlaps();
         }
         if let Some(ball) = self.ball() {
-            return self.told_ball(ball).separation <= 0.0;
+            return self.closed_form_of_ball(ball).separation <= 0.0;
         }
         match self.planes() {
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told_slender(&a, &b).separation <= 0.0,
+                Some([a, b]) => self.closed_form_of_slender(&a, &b).separation <= 0.0,
                 None => self.with_solids(|a, b| self.guess_of_solids(a, b)),
             },
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.closed_form_of_half_space(plane).separation <= 0.0
+            }
         }
     }
 

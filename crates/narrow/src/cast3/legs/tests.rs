@@ -78,7 +78,7 @@ fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
 #[test]
 fn what_legs_leave_out_is_never_what_is_met() {
     let mut numbers = Numbers::new(2711);
-    let mut told = [0; 2];
+    let mut outcomes = [0; 2];
     for i in 0..900 {
         let far = [DVec3::ZERO, DVec3::new(1e5, -2e5, 3e4)][i % 2];
         let half = numbers.vector() * 2.0 + DVec3::splat(2.5);
@@ -107,10 +107,10 @@ fn what_legs_leave_out_is_never_what_is_met() {
             }
             let truth = plainly(&pair, &Passage::of_motions(&pair, [moves_a, moves_b]));
             assert_eq!(pair.impact(moves_a, moves_b), truth, "{i}");
-            told[usize::from(truth.is_some())] += 1;
+            outcomes[usize::from(truth.is_some())] += 1;
         }
     }
-    assert!(told[0] > 200 && told[1] > 400, "{told:?}");
+    assert!(outcomes[0] > 200 && outcomes[1] > 400, "{outcomes:?}");
 }
 
 #[test]

@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_direction_parts_is_told_as_the_kernels_tell_it() {
+    fn bounds_along_a_direction_agree_with_the_kernels() {
         let mut random = Random(0x9A47_ED0B_EF03);
         let (mut parted, mut open) = (0, 0);
         for case in 0..20_000 {
@@ -84,19 +84,19 @@ mod tests {
             else {
                 panic!("no limit was given");
             };
-            let told = |probe: Probe| match probe {
+            let bound_or_none = |probe: Probe| match probe {
                 Probe::Beyond(at_least, _) => Some(f64::from(at_least)),
                 Probe::Near(_) => None,
             };
-            match pair.parted_as_before(asked).map(told) {
+            match pair.parted_as_before(asked).map(bound_or_none) {
                 Some(at_least) => {
                     let at_least = at_least.expect("nothing is near");
                     parted += 1;
                     assert!(at_least > limit * (1.0 - 1e-6), "case {case}: {at_least} of {limit}");
                     assert!(at_least <= f64::from(truth.separation) + f64::from(truth.error), "case {case}");
                     // The kernels' bound differs from it by no more than the error of f32 lanes.
-                    let theirs =
-                        told(pair.with_solids(|a, b| pair.probe_solids(a, b, asked))).expect("beyond, too");
+                    let theirs = bound_or_none(pair.with_solids(|a, b| pair.probe_solids(a, b, asked)))
+                        .expect("beyond, too");
                     assert!(
                         (theirs - at_least).abs() <= 4e-6 * f64::from(size),
                         "case {case}: {theirs}, {at_least}"

@@ -57,9 +57,9 @@ impl Convex<'_> {
             return self.beyond(axis.separation, asked.hint);
         }
         if asked.wanted == Wanted::Points
-            && let Some((axes, witness)) = self.told_by((a, b), asked.hint, hinted.as_ref())
+            && let Some((axes, witness)) = self.gap_by_hint((a, b), asked.hint, hinted.as_ref())
         {
-            return self.told_gap((a, b), axes, witness, asked.hint);
+            return self.probe_gap_by_hint((a, b), axes, witness, asked.hint);
         }
         // Closest points come from the distance, not from axes. Only pairs that nearly touch come here for them: others
         // took the fastest path (`apart`).
@@ -203,8 +203,8 @@ impl Convex<'_> {
                 // own hint.
                 if wanted == Wanted::Points {
                     let hinted = Hinted::new((a, b), hint, &self.precision);
-                    if let Some((axes, witness)) = self.told_by((a, b), hint, hinted.as_ref()) {
-                        return self.told_gap((a, b), axes, witness, hint);
+                    if let Some((axes, witness)) = self.gap_by_hint((a, b), hint, hinted.as_ref()) {
+                        return self.probe_gap_by_hint((a, b), axes, witness, hint);
                     }
                 }
                 self.gap_of_cores(axes, verdict, witness, hint)
@@ -215,7 +215,7 @@ impl Convex<'_> {
     }
 
     /// The gap that a hint finds by itself, and its axis.
-    fn told_by(
+    fn gap_by_hint(
         &self,
         (a, b): (&Solid, &Solid),
         hint: Hint,
@@ -228,7 +228,7 @@ impl Convex<'_> {
     }
 
     /// The answer for a gap that a hint found. The hint is kept: the next answer comes from the same one.
-    fn told_gap(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
+    fn probe_gap_by_hint(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
         match self.conclude_gap(&witness) {
             (verdict, true) => self.gap_of_cores(axes, verdict, witness, hint),
             // Not reached: a gap between the cores that a hint finds is wider than rounding.
@@ -290,7 +290,7 @@ impl Convex<'_> {
 
     /// Whether solids overlap, other than two cuboids.
     pub(super) fn verdict_of_solids(&self, a: &Solid, b: &Solid) -> Verdict {
-        let until = self.until_told();
+        let until = self.until_decided();
         let bound = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
         match portal::search(a, b, until.beyond, &self.precision) {
             Found::Beyond(..) => bound(false),
@@ -317,7 +317,7 @@ impl Convex<'_> {
     }
 
     /// When the distance iteration may stop for an overlap test: once it shows whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
+    fn until_decided(&self) -> Until<'_> {
         let doubt = self.precision.projection();
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
