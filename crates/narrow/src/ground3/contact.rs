@@ -159,10 +159,10 @@ fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bo
         return Some(None);
     }
     let poses = if on.is_b { [&pair.pose_a, &pair.pose_b] } else { [&pair.pose_b, &pair.pose_a] };
-    let asking = Asking { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin), is_plain };
+    let query = GroundQuery { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin), is_plain };
     let mut found: Option<bool> = None;
     for_parts(on.body, &on.body_basis, |part| {
-        if let Some(overlapping) = asking.contact_of(part, found == Some(true), manifolds) {
+        if let Some(overlapping) = query.contact_of(part, found == Some(true), manifolds) {
             found = Some(found.unwrap_or(false) || overlapping);
         }
         found == Some(true) && !manifolds.is_wanted()
@@ -171,7 +171,7 @@ fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bo
 }
 
 /// A query: contacts of a body on ground within a margin.
-struct Asking<'a> {
+struct GroundQuery<'a> {
     on: &'a OnGround<'a>,
     /// The body's and the ground's.
     poses: [&'a Pose3; 2],
@@ -213,7 +213,7 @@ struct Unclear {
 
 /// A part that is being tested against triangles.
 struct PartTest<'s> {
-    asking: &'s Asking<'s>,
+    query: &'s GroundQuery<'s>,
     standing: &'s Standing<'s>,
     meeting: Meeting<'s>,
     /// The part's box, grown by the reach.
@@ -221,7 +221,7 @@ struct PartTest<'s> {
     is_ball: bool,
 }
 
-impl<'a> Asking<'a> {
+impl<'a> GroundQuery<'a> {
     /// Whether a part overlaps, if it is within the margin. Once another part is known to overlap, this part's own
     /// decision does not matter.
     fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
@@ -249,7 +249,7 @@ impl<'a> Asking<'a> {
         let bounds = self.on.bounds_around(&part, standing.turned, self.reach);
         let meeting = Meeting::new(self.on, part, self.poses);
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
-        let test = PartTest { asking: self, standing: &standing, meeting, bounds, is_ball };
+        let test = PartTest { query: self, standing: &standing, meeting, bounds, is_ball };
         let mut known = Known::new([standing.slack, standing.even]);
         let is_yes_enough = !manifolds.is_wanted();
         if let Shape3::HalfSpace(half_space) = part.shape {
@@ -348,7 +348,7 @@ impl PartTest<'_> {
         }
         if let Err(full) = known.unclear.try_push(Unclear { has_points, separation, number }) {
             let Unclear { number, .. } = full.element();
-            if self.meeting.overlaps(self.asking.on.ground, number) {
+            if self.meeting.overlaps(self.query.on.ground, number) {
                 known.settle(number);
             }
         }
@@ -364,7 +364,7 @@ impl PartTest<'_> {
                 b.has_points.cmp(&a.has_points).then(by_depth).then(a.number.cmp(&b.number))
             });
             let mut numbers = known.unclear.iter().map(|unclear| unclear.number);
-            match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
+            match numbers.find(|&number| self.meeting.overlaps(self.query.on.ground, number)) {
                 Some(number) => known.settle(number),
                 None => known.groups.keep_within(-slack),
             }
@@ -383,7 +383,7 @@ impl PartTest<'_> {
     #[cold]
     #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
         if let Shape3::HalfSpace(half_space) = standing.part.shape {
             return self.add_lowest_corner(number, standing.place.axes.turn(half_space.unit_normal()), known);
         }

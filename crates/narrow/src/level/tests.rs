@@ -103,9 +103,9 @@ fn what_has_nothing_to_do_with_a_meeting_is_passed_over() {
         // Far above what is touched, and further ahead.
         let corner = DVec3::new(5.0, -9.0, 0.0);
         let parts = Parts { moments: [[corner; 5]; 4], thickness: 0.5, met_at: 0.0 };
-        let ask = || parts.lies(Vec3::X.into(), Some(&touched), &beside);
-        (0..8).for_each(|_| assert_eq!(steps_of(ask), (Lies::Ahead, 4096)));
-        let (lies, steps) = steps_of(ask);
+        let query = || parts.lies(Vec3::X.into(), Some(&touched), &beside);
+        (0..8).for_each(|_| assert_eq!(steps_of(query), (Lies::Ahead, 4096)));
+        let (lies, steps) = steps_of(query);
         assert!(lies == Lies::Ahead && steps <= most, "{steps}");
     }
 }

@@ -106,11 +106,11 @@ impl Pair3<'_> {
 
 impl<'p> BallOnHull<'p> {
     #[inline]
-    fn with_walk<R>(&self, use_walk: impl FnOnce(&Walk) -> R) -> R {
+    fn with_walk<R>(&self, run: impl FnOnce(&Walk) -> R) -> R {
         let core = self.beside.shape.core();
         let solid = Solid::new(&core, IDENTITY, DVec3::ZERO, 0.0);
         let (normals, heights) = (core.normals(), core.heights());
-        use_walk(&Walk { solid: &solid, normals, heights, point: self.center })
+        run(&Walk { solid: &solid, normals, heights, point: self.center })
     }
 
     fn on_faces(&self, nearest: Nearest) -> BallOnFaces<'p> {

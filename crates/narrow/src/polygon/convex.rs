@@ -16,7 +16,7 @@
 
 use super::half_plane::Line;
 use super::manifold::{Point, Touch, over_edge};
-use super::measure::{Asked, Measure, Near, Probe};
+use super::measure::{Measure, Near, Probe, Query};
 use super::outline::{Outline, Turn};
 use super::sat::{Outcome, doubt, separating_axes};
 use super::search::beside;
@@ -69,15 +69,15 @@ impl<'a> Convex<'a> {
 
     /// The separation where it is at most the limit; the hinted axis is tried first.
     #[inline]
-    pub(crate) fn probe(&self, asked: &Asked) -> Probe {
+    pub(crate) fn probe(&self, query: &Query) -> Probe {
         if self.has_line() {
-            return self.probe_lines(asked);
+            return self.probe_lines(query);
         }
         self.with_outlines(|a, b| {
             if a.edge_count() + b.edge_count() > 0 {
-                return self.probe_outlines(a, b, asked);
+                return self.probe_outlines(a, b, query);
             }
-            self.probe_closed_form(&self.closed_form_of_points(a, b), asked, |result| {
+            self.probe_closed_form(&self.closed_form_of_points(a, b), query, |result| {
                 let (on_a, on_b) = (a.point(0), b.point(0));
                 let separation = result.normal.dot(on_b - on_a);
                 let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
@@ -89,10 +89,10 @@ impl<'a> Convex<'a> {
     }
 
     /// For shapes of which at least one is a half-plane.
-    fn probe_lines(&self, asked: &Asked) -> Probe {
+    fn probe_lines(&self, query: &Query) -> Probe {
         match self.lines() {
             [Some(a), Some(b)] => {
-                self.probe_closed_form(&self.closed_form_of_half_planes(a, b), asked, |result| {
+                self.probe_closed_form(&self.closed_form_of_half_planes(a, b), query, |result| {
                     let ([on_a, on_b], separation) = (a.points_with(&b), f64::from(result.separation as f32));
                     let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
                     let point = Point { separation, on_a, on_b, feature };
@@ -102,8 +102,8 @@ impl<'a> Convex<'a> {
             [Some(line), _] | [_, Some(line)] => self.with_outlines(|a, b| {
                 let core = if line.is_b { a } else { b };
                 let result = self.closed_form_of_half_plane(line, core);
-                self.probe_closed_form(&result, asked, |_| {
-                    Some(line.touch(core, asked.limit, self.measure.preference))
+                self.probe_closed_form(&result, query, |_| {
+                    Some(line.touch(core, query.limit, self.measure.preference))
                 })
             }),
             [None, None] => Probe::Beyond(0.0, Hint::NONE),
@@ -137,12 +137,12 @@ impl<'a> Convex<'a> {
     fn probe_closed_form(
         &self,
         result: &ClosedForm,
-        asked: &Asked,
+        query: &Query,
         touch: impl FnOnce(&ClosedForm) -> Option<Touch>,
     ) -> Probe {
         let precision = self.measure.precision;
         let separation = result.separation;
-        if separation > asked.limit + precision.projection() {
+        if separation > query.limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
         let verdict = self.closed_form_verdict(result);
@@ -155,34 +155,34 @@ impl<'a> Convex<'a> {
             normal: result.normal,
             closest: (!verdict.overlapping).then_some(result.closest),
             hint: Hint::NONE,
-            touch: if asked.points { touch(result) } else { None },
+            touch: if query.points { touch(result) } else { None },
         })
     }
 
     /// Axes first; the decision next; then the number that agrees with it.
-    fn probe_outlines(&self, a: &Outline, b: &Outline, asked: &Asked) -> Probe {
+    fn probe_outlines(&self, a: &Outline, b: &Outline, query: &Query) -> Probe {
         let measure = &self.measure;
-        let wanted = measure.wanted(asked, self.towards_b());
+        let wanted = measure.wanted(query, self.towards_b());
         let outcome = separating_axes(a, b, &wanted);
-        if let Some(probe) = measure.at_once([a, b], asked, &outcome) {
+        if let Some(probe) = measure.at_once([a, b], query, &outcome) {
             return probe;
         }
         match outcome {
             Outcome::Beyond(separation, hint) => {
                 Probe::Beyond(at_least(separation - measure.radii, &measure.precision), hint)
             }
-            Outcome::Gap(separation, normal) => self.gap([a, b], asked, (separation, normal), wanted.band),
+            Outcome::Gap(separation, normal) => self.gap([a, b], query, (separation, normal), wanted.band),
             Outcome::Within(axes) => {
                 let best = axes.best();
                 let looked = self.look_closer(a, b, Some((best.separation, best.normal)));
-                measure.close_cores([a, b], asked, &axes, &looked)
+                measure.close_cores([a, b], query, &axes, &looked)
             }
         }
     }
 
     /// Shapes with a gap between their cores that one direction proves: finds the nearest points first, and then the
     /// axes that matter beside theirs.
-    fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
+    fn gap(&self, [a, b]: [&Outline; 2], query: &Query, shown: (f64, DVec2), band: f64) -> Probe {
         let looked = self.look_closer(a, b, Some(shown));
         let (normal, least) = match &looked.1 {
             Cores::Between(witness) => (witness.normal, witness.distance),
@@ -190,7 +190,7 @@ impl<'a> Convex<'a> {
         };
         let mut axes = beside(a, b, normal, least - band);
         axes.short = doubt(&self.measure.precision);
-        self.measure.close_cores([a, b], asked, &axes, &looked)
+        self.measure.close_cores([a, b], query, &axes, &looked)
     }
 
     /// Contact points over an edge of A, or of B, along its outward normal: see [`over_edge`].
@@ -221,10 +221,10 @@ impl<'a> Convex<'a> {
     }
 
     #[inline]
-    pub(super) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
+    pub(super) fn with_outlines<R>(&self, run: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
         let a = Outline::new(self.shape_a, &core_a, self.turn_a, DVec2::ZERO);
         let b = Outline::new(self.shape_b, &core_b, self.turn_b, self.offset);
-        ask(&a, &b)
+        run(&a, &b)
     }
 }

@@ -313,14 +313,14 @@ fn no_question_about_large_polygons_is_quadratic() {
         let (here, there) = (Pose2::IDENTITY, Pose2::new(centers + away, turn).unwrap());
         let pair = Pair2::new(&shape_a, &here, &shape_b, &there);
         let (apart, of_distance) = steps_of(|| pair.distance().is_some());
-        let asked = [
+        let steps = [
             of_distance,
             steps_of(|| pair.separation(f32::INFINITY)).1,
             steps_of(|| pair.manifold(1e6)).1,
             steps_of(|| pair.overlaps()).1,
         ];
-        let most = asked.into_iter().max().unwrap();
-        assert!(most <= 30 * edges + 2000, "{asked:?} steps for {edges} edges, apart: {apart}");
+        let most = steps.into_iter().max().unwrap();
+        assert!(most <= 30 * edges + 2000, "{steps:?} steps for {edges} edges, apart: {apart}");
         worst = worst.max(most as f64 / edges as f64);
         large += usize::from(edges > 2000);
     }

@@ -56,7 +56,7 @@ fn motion(numbers: &mut Numbers, from: &Pose3, way: DVec3, most: f64) -> Motion3
 /// The answer of all pairs of parts, one after the other, for two bodies that do not touch at the start.
 fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
     let mut first: Option<Impact3> = None;
-    let mut ask = |a: Part, b: Part| {
+    let mut visit = |a: Part, b: Part| {
         let until = first.map_or(1.0, |known| known.fraction);
         let Some(stretch) = passage.stretch([&a, &b], until) else { return };
         let (End::Met(met) | End::Unclear(met, false)) = part_end(passage, [a, b], &stretch, until) else {
@@ -68,7 +68,7 @@ fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
     };
     for_parts(pair.shape_a, &passage.bases[0], |a| {
         for_parts(pair.shape_b, &passage.bases[1], |b| {
-            ask(a, b);
+            visit(a, b);
             false
         })
     });

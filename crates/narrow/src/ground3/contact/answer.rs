@@ -1,14 +1,14 @@
 //! Output of what was found for a part: manifolds in world axes.
 
 use super::groups::Group;
-use super::{Asking, Known};
+use super::{GroundQuery, Known};
 use crate::answer::ContactPoint3;
 use crate::feature::FeatureId;
 use crate::pair3::Part;
 use crate::precision::{IN_SPACE, Precision, signed};
 use crate::room::Room;
 
-impl Asking<'_> {
+impl GroundQuery<'_> {
     /// Outputs what was found; returns whether the part overlaps, if it is within the margin.
     #[inline]
     pub(super) fn answer(

@@ -110,18 +110,18 @@ impl Nearest {
 impl PartTest<'_> {
     /// Processes one triangle, for a ball.
     pub(super) fn look_at_from_ball(&self, number: u32, known: &mut Known) {
-        let ground = self.asking.on.ground;
+        let ground = self.query.on.ground;
         let Some(facet) = &Facet::facing(ground, number, self.standing.center) else { return };
         let doubt = self.doubt_over(facet);
-        if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
+        if facet.height(self.standing.center) - self.standing.radius > self.query.reach + doubt {
             return;
         }
         let nearest = Nearest::of(self.standing, facet, doubt);
-        if nearest.separation > self.asking.reach + doubt {
+        if nearest.separation > self.query.reach + doubt {
             return;
         }
         let ball = (self.standing.center, self.standing.radius);
-        let is_within = nearest.separation <= self.asking.reach;
+        let is_within = nearest.separation <= self.query.reach;
         let has_points = is_within && nearest.add_point(ball, facet, ground, doubt, &mut known.groups);
         if is_within && !has_points {
             known.keep_rejected_gap(nearest.closest_points(ball, (ground, number), doubt));

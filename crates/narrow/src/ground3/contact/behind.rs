@@ -59,7 +59,7 @@ impl PartTest<'_> {
     fn is_hidden(&self, facet: &Facet, by: LeastAlong) -> bool {
         facet.normal.dot(by.0) <= ASIDE
             && self.is_left_below(facet, by)
-            && facet.has_beside(self.asking.on.ground, by.0)
+            && facet.has_beside(self.query.on.ground, by.0)
     }
 }
 

@@ -46,9 +46,9 @@ impl PartTest<'_> {
     /// Processes a triangle whose normal may not be the answer.
     fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let Prism { standing, facet, extent, doubt, .. } = *prism;
-        let beyond = self.asking.reach + 2.0 * doubt;
+        let beyond = self.query.reach + 2.0 * doubt;
         let mut axes = Axes::new();
-        let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
+        let has_axes = !self.query.is_plain && prism.fill(&mut axes, beyond + standing.radius);
         let axes = has_axes.then_some(&axes);
         if standing.is_apart((facet, axes), beyond) {
             return;
@@ -93,7 +93,7 @@ impl PartTest<'_> {
             if axes.best > doubt
                 && let Some(gap) = prism.rejected_gap(axes)
             {
-                if gap.separation <= self.asking.margin.into() {
+                if gap.separation <= self.query.margin.into() {
                     known.keep_rejected_gap(gap);
                     let is_own = gap.is_own;
                     self.defer_rejected(prism, Rejection { is_own, is_apart: true, measured: None }, known);
@@ -101,7 +101,7 @@ impl PartTest<'_> {
                 return;
             }
         }
-        let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
+        let met = self.meeting.add_points((ground, facet), standing, self.query, &mut known.groups);
         match met {
             Met::Apart | Met::Added(false) => {}
             Met::Added(true) => known.settle(number),

@@ -1,6 +1,6 @@
 //! A convex part and one triangle by the general kernels, and whether ground accepts their axis.
 
-use super::Asking;
+use super::GroundQuery;
 use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
 use super::rejected_gaps::ClosestPoints;
@@ -9,7 +9,7 @@ use crate::exact::Site3;
 use crate::feature::{Feature, Hint};
 use crate::ground3::OnGround;
 use crate::pair3::Part;
-use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
+use crate::polyhedron::convex::{Convex, Near, Probe, Query, Wanted};
 use crate::polyhedron::manifold::Touch;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
@@ -47,11 +47,11 @@ impl<'a> Meeting<'a> {
         Self { part, body, ground_pose, relative, offset, summed }
     }
 
-    fn with<R>(&self, ground: Ground, number: u32, ask: impl FnOnce(&Convex) -> R) -> Option<R> {
+    fn with<R>(&self, ground: Ground, number: u32, run: impl FnOnce(&Convex) -> R) -> Option<R> {
         let shape = Shape3::Triangle(ground.triangle(number)?);
         let site = Site3 { shape: &shape, body: *self.ground_pose, part: None };
         let sites = [self.part.site(self.body), site];
-        Some(ask(&Convex::new(sites, self.relative, self.offset, self.summed)))
+        Some(run(&Convex::new(sites, self.relative, self.offset, self.summed)))
     }
 
     /// Whether the part and a triangle share a point, exactly.
@@ -65,15 +65,15 @@ impl<'a> Meeting<'a> {
         &self,
         (ground, facet): (Ground, &Facet),
         standing: &Standing,
-        asking: &Asking,
+        query: &GroundQuery,
         groups: &mut Groups,
     ) -> Met {
         let place = &standing.place;
         let mut touch = Touch::none();
         // No points are made along directions that ground rejects, as it does most often.
         let is_let_through =
-            |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
-        let Some(near) = self.near((ground, facet), asking, is_let_through, &mut touch) else {
+            |near: &Near| query.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
+        let Some(near) = self.near((ground, facet), query, is_let_through, &mut touch) else {
             return Met::Apart;
         };
         let measured = [near.separation.into(), near.error.into()];
@@ -91,9 +91,14 @@ impl<'a> Meeting<'a> {
     }
 
     /// The closest points of the part and a triangle, if they are within the margin and share no point.
-    pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<ClosestPoints> {
+    pub(super) fn gap(
+        &self,
+        of: (Ground, &Facet),
+        place: &Place,
+        query: &GroundQuery,
+    ) -> Option<ClosestPoints> {
         let mut touch = Touch::none();
-        let near = self.near(of, asking, |_| false, &mut touch)?;
+        let near = self.near(of, query, |_| false, &mut touch)?;
         rejected_gap_of(of, place, &near)
     }
 
@@ -103,10 +108,10 @@ impl<'a> Meeting<'a> {
         &self,
         of: (Ground, &Facet),
         place: &Place,
-        asking: &Asking,
+        query: &GroundQuery,
     ) -> Option<(DVec3, ClosestPoints)> {
         let mut touch = Touch::none();
-        let near = self.near(of, asking, |_| true, &mut touch)?;
+        let near = self.near(of, query, |_| true, &mut touch)?;
         let towards = -place.axes.turn(near.normal);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         let [on_a, on_b] = near.closest.or(deepest.map(|point| [point.on_a, point.on_b]))?;
@@ -122,23 +127,23 @@ impl<'a> Meeting<'a> {
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),
-        asking: &Asking,
+        query: &GroundQuery,
         is_wanted: impl Fn(&Near) -> bool,
         touch: &mut Touch,
     ) -> Option<Near> {
-        let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
-        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= asking.margin;
+        let of_triangle = Query { limit: query.reach, hint: Hint::NONE, wanted: Wanted::Points };
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= query.margin;
         let accept = |near: &Near| is_near(near) && is_wanted(near);
         let is_cuboid = matches!(self.part.shape, Shape3::Cuboid(_));
         let probe = self.with(ground, facet.number, |convex| {
-            if !(asking.is_plain || is_cuboid) {
-                let closest = convex.probe(Asked { wanted: Wanted::Closest, ..asked });
+            if !(query.is_plain || is_cuboid) {
+                let closest = convex.probe(Query { wanted: Wanted::Closest, ..of_triangle });
                 match &closest {
                     Probe::Near(near) if near.verdict.overlapping || accept(near) => {}
                     _ => return closest,
                 }
             }
-            convex.contact(asked, accept, touch).0
+            convex.contact(of_triangle, accept, touch).0
         });
         match probe? {
             Probe::Near(near) if is_near(&near) => Some(near),

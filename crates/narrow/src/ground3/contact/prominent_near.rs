@@ -53,7 +53,7 @@ impl PartTest<'_> {
             if stands_out { facet.square_to_side(standing.center, edge) } else { f64::INFINITY }
         };
         let squares = [square(0), square(1), square(2)];
-        let counts = are_within(squares, standing.outer_radius + self.asking.reach + prism.doubt);
+        let counts = are_within(squares, standing.outer_radius + self.query.reach + prism.doubt);
         if counts == [false; 3] || prism.is_short(counts) {
             return Needs::Normal;
         }
@@ -104,7 +104,7 @@ impl PartTest<'_> {
             if may_be_deep && pin.separation > touching() && !is_apart() {
                 return None;
             }
-            let is_wholly = is_rest_beyond(self.asking.reach);
+            let is_wholly = is_rest_beyond(self.query.reach);
             is_where_deep |= may_be_deep && !is_wholly && is_rest_beyond(touching());
             is_wholly.then_some(Covered::Wholly(least))
         });

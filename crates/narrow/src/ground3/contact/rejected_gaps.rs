@@ -145,7 +145,7 @@ impl PartTest<'_> {
     }
 
     pub(super) fn add_rejected_gap(&self, gap: &ClosestPoints, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let (ground, standing) = (self.query.on.ground, self.standing);
         let ClosestPoints { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *gap;
         let Some(facet) = Facet::facing(ground, number, standing.center) else { return };
         // Gets the id of a side of the triangle, wherever that is: a contact between a vertex and a side is never moved
@@ -160,7 +160,7 @@ impl PartTest<'_> {
 
     /// Calls the kernels for triangles that were taken for penetrated and are not: the part is on their other side.
     fn look_behind(&self, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let (ground, standing) = (self.query.on.ground, self.standing);
         if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
@@ -168,7 +168,7 @@ impl PartTest<'_> {
             let Unclear { separation, number, .. } = known.unclear[place];
             if separation < -standing.slack
                 && let Some(facet) = Facet::facing(ground, number, standing.center)
-                && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)
+                && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.query)
             {
                 known.keep_rejected_gap(gap);
             }

@@ -18,8 +18,8 @@
 use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same, widened};
 use super::standing::doubt_of;
-use super::{Asking, Known};
-use crate::ground3::ask_box::way_from;
+use super::{GroundQuery, Known};
+use crate::ground3::bounds::way_from;
 use crate::ground3::near::{OnGround, grown_around};
 use crate::pair3::Part;
 use crate::room::Room;
@@ -57,18 +57,18 @@ impl Round {
         grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
-    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; `None` where the general path has to
-    /// run.
+    /// Whether it overlaps, if it is within the margin, as [`GroundQuery::contact_of`]; `None` where the general path
+    /// has to run.
     pub(super) fn contact(
         &self,
-        asking: &Asking,
+        query: &GroundQuery,
         part: Part,
         is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<Option<bool>> {
         let slack = self.slack();
         let mut known = Known::new([slack; 2]);
-        if !self.look(asking.on.ground, !manifolds.is_wanted(), &mut known) {
+        if !self.look(query.on.ground, !manifolds.is_wanted(), &mut known) {
             return None;
         }
         if !(known.overlapping || is_overlap_known && known.groups.least() >= -slack) {
@@ -78,7 +78,7 @@ impl Round {
             return None;
         }
         known.record_rejected_gap(slack);
-        Some(asking.answer(part, &mut known, is_overlap_known, manifolds))
+        Some(query.answer(part, &mut known, is_overlap_known, manifolds))
     }
 
     /// Positions that differ by no more count as the same, in metres.

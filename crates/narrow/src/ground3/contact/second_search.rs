@@ -88,7 +88,7 @@ impl PartTest<'_> {
 
     /// Triangles with bounds above this need not be examined.
     fn enough(&self, known: &Known) -> f64 {
-        known.groups.least().min(self.asking.margin.into()) - LEEWAY * self.standing.slack
+        known.groups.least().min(self.query.margin.into()) - LEEWAY * self.standing.slack
     }
 
     /// Triangles with bounds below this are other ground: the closest point along a triangle's normal, up to a few low
@@ -144,7 +144,7 @@ impl PartTest<'_> {
     /// Calls the kernels for a triangle, and reports its separation if that is less than all found; returns whether it
     /// is.
     fn call_kernels(&self, number: u32, bound: f64, called: &mut Called, known: &mut Known) -> bool {
-        let (ground, standing, enough) = (self.asking.on.ground, self.standing, self.enough(known));
+        let (ground, standing, enough) = (self.query.on.ground, self.standing, self.enough(known));
         let _ = called.numbers.try_push(number);
         let Some(facet) = Facet::facing(ground, number, standing.center) else { return false };
         let bound = bound.max(self.bound_by(called, &facet) - self.doubt_over(&facet));
@@ -152,7 +152,7 @@ impl PartTest<'_> {
             called.lowest = called.lowest.min(bound);
             return false;
         }
-        let found = self.meeting.nearest((ground, &facet), &standing.place, self.asking);
+        let found = self.meeting.nearest((ground, &facet), &standing.place, self.query);
         let Some((towards, found)) = found else { return false };
         let is_hidden =
             facet.normal.dot(towards) > 0.0 && facet.normal.cross(towards).length() <= window(1.0);
@@ -171,7 +171,7 @@ impl PartTest<'_> {
     /// Passes over all triangles with low bends for which no kernels were called. Where not all levels were kept, it
     /// notes what they may hide of manifolds other than the nearest.
     fn nearest_of_low(&self, called: &Called, known: &mut Known) -> Open {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let (ground, standing) = (self.query.on.ground, self.standing);
         let (floor, enough) = (self.floor(known), self.enough(known));
         let mut open = Open { nearest: ArrayVec::new_const(), rest: f64::INFINITY };
         let _ = ground.read_near(&self.bounds, |near| {
@@ -205,7 +205,7 @@ impl PartTest<'_> {
 
     /// A triangle, if it has a low bend, and a lower bound on its separation.
     fn low(&self, near: &NearTriangle, known: &mut Known) -> Option<(Facet, f64)> {
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
         if !near.prominent.bends_low() {
             return None;
         }

@@ -107,7 +107,7 @@ impl PartTest<'_> {
             (low, high) = (low.min(turned[0] + up), high.max(turned[1] + up));
         }
         let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
-        let bounds = self.asking.on.bounds_around(&self.standing.part, [low, high], touching());
+        let bounds = self.query.on.bounds_around(&self.standing.part, [low, high], touching());
         for &by in &whole {
             self.add_rest_along(&bounds, by, is_alone, known);
         }
@@ -115,7 +115,7 @@ impl PartTest<'_> {
 
     /// The same along one normal, over triangles near a box.
     fn add_rest_along(&self, bounds: &Aabb3, by: LeastAlong, is_alone: bool, known: &mut Known) {
-        let ground = self.asking.on.ground;
+        let ground = self.query.on.ground;
         let mut deep = known.groups.deep_along(ground, by.0);
         // A corner's feature id says which triangles it belongs to, but not which patch: that is looked up first.
         let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();

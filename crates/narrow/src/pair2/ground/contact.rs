@@ -19,7 +19,7 @@ use crate::feature::Hint;
 use crate::ground2::{Region, Surface, Zone};
 use crate::lists::{MANIFOLDS2, with_list};
 use crate::polygon::manifold::Point;
-use crate::polygon::measure::{Asked, Near, Probe};
+use crate::polygon::measure::{Near, Probe, Query};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::STRAIGHT;
@@ -159,7 +159,7 @@ impl Standing<'_> {
         let Some(chord) = self.chain.chord(run).map(Shape2::Segment) else { return Overlap::Decided(false) };
         let parts = pair.ordered(self.side, Part::segment(run.first(), &chord, turn), self.part);
         let limit = self.limit + run.unevenness();
-        let Probe::Near(near) = parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: true }) else {
+        let Probe::Near(near) = parts.convex.probe(&Query { limit, hint: Hint::NONE, points: true }) else {
             return Overlap::Decided(false);
         };
         let mut overlap = overlap(&near, run);

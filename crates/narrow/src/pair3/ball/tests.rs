@@ -2,7 +2,7 @@ use super::*;
 use crate::answer::{Closest3, Measured3, Separation3};
 use crate::feature::Hint;
 use crate::numbers::Numbers;
-use crate::polyhedron::convex::{Asked, Probe, Wanted};
+use crate::polyhedron::convex::{Probe, Query, Wanted};
 use asunder_geometry::Sphere;
 use asunder_geometry::glam::Quat;
 
@@ -91,8 +91,8 @@ fn the_closed_form_says_what_the_search_says() {
         let parts = [(pair.shape_a, &bases[0]), (pair.shape_b, &bases[1])];
         let [a, b] = parts.map(|(shape, basis)| Part::whole(shape, basis));
         let convex = &pair.parts(&bases, a, b).convex;
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Points };
-        let (probe, touch) = convex.contact_of_solids(asked);
+        let query = Query { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Points };
+        let (probe, touch) = convex.contact_of_solids(query);
         let Probe::Near(near) = probe else { unreachable!("no limit") };
         let off = (f64::from(found.separation) - f64::from(near.separation)).abs();
         assert!(
@@ -125,9 +125,9 @@ fn the_general_path_tells_the_same_bits() {
             let parts = [(pair.shape_a, &bases[0]), (pair.shape_b, &bases[1])];
             let [a, b] = parts.map(|(shape, basis)| Part::whole(shape, basis));
             let mut deepest = crate::room::Deepest(None);
-            let asked = Asked { limit: reach_of(0.5), hint: Hint::NONE, wanted: Wanted::Points };
+            let query = Query { limit: reach_of(0.5), hint: Hint::NONE, wanted: Wanted::Points };
             let parts = pair.parts(&bases, a, b);
-            let _ = parts.contact(asked, 0.5, &mut deepest);
+            let _ = parts.contact(query, 0.5, &mut deepest);
             assert_eq!(parts.convex.verdict(), pair.verdict(), "{case:?}");
             let manifold = pair.manifold(0.5);
             assert_eq!(manifold.is_some(), deepest.0.is_some(), "{case:?}");

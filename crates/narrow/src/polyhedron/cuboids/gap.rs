@@ -17,10 +17,10 @@
 //! a frame's time (2026-11-23).
 
 use super::super::sat::{AxisOf, hint_to, hint_with};
-use super::asked::Contact;
 use super::contact::{Touching, looks};
 use super::patch::{Patch, Reference};
 use super::placed::Placed;
+use super::queries::Contact;
 use super::settled::{Best, Edges, SLACK};
 use crate::answer::Manifold3;
 use crate::feature::Hint;

@@ -2,7 +2,7 @@
 
 use super::super::sat::tests::Random;
 use super::super::sat::{AxisOf, hint_to};
-use super::asked::Contact;
+use super::queries::Contact;
 use crate::pair3::reach_of;
 use crate::{ContactPoint3, Feature, FeatureId, Hint, Manifold3, Pair3};
 use asunder_geometry::glam::{Quat, Vec3};
