@@ -129,7 +129,7 @@ impl<'a> Pair2<'a> {
     pub fn overlaps_front(&self) -> bool {
         let has_one_side = |shape: &Shape2| matches!(shape, Shape2::Chain(chain) if chain.is_one_sided());
         if has_one_side(self.shape_a) || has_one_side(self.shape_b) {
-            self.overlaps_seen()
+            self.overlaps_facing()
         } else {
             self.overlaps()
         }

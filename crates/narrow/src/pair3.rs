@@ -250,7 +250,7 @@ impl<'a> Pair3<'a> {
         self.visit_nearest(&bases, &mut least, |least, [a, b]| {
             !least.passes_over(self.gap(&a, &b)) && {
                 let found = self.parts(&bases, a, b).closest(least.reach());
-                least.hear(found, |found| [found.distance, found.error])
+                least.offer_closest(found, |found| [found.distance, found.error])
             }
         });
         let (found, error) = least.finish().ok()?;

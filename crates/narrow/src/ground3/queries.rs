@@ -91,7 +91,7 @@ impl Pair3<'_> {
     }
 
     /// Whether any part overlaps a triangle that faces it.
-    pub(crate) fn overlaps_seen(&self, on: &OnGround) -> bool {
+    pub(crate) fn overlaps_facing(&self, on: &OnGround) -> bool {
         self.gap_of_spheres() <= 0.0 && self.any_on(on, true, |parts| parts.convex.verdict().overlapping)
     }
 
@@ -104,8 +104,8 @@ impl Pair3<'_> {
                 count_step();
                 let corners = on.ground.corners(number);
                 let beside = placed.beside(corners);
-                let is_candidate =
-                    placed.gap(&beside, 0.0) <= 0.0 && (!only_facing || on.sees(corners, placed.seen_at));
+                let is_candidate = placed.gap(&beside, 0.0) <= 0.0
+                    && (!only_facing || on.is_facing(corners, placed.viewpoint));
                 let mut by_kernels = || {
                     let triangle = on.ground.triangle(number).map(Shape3::Triangle);
                     triangle.is_some_and(|it| test(&self.parts_on(on, &bases, *part, (number, &it))))

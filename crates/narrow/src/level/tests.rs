@@ -67,7 +67,7 @@ fn contacts(numbers: &mut Numbers, count: usize) -> Vec<Touch3> {
 }
 
 #[test]
-fn contacts_laid_out_say_what_they_say_one_by_one() {
+fn contacts_laid_out_agree_with_tests_one_by_one() {
     let mut numbers = Numbers::new(5700);
     let mut outcomes = [0; 3];
     for round in 0..400 {

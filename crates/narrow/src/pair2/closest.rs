@@ -28,7 +28,7 @@ impl Pair2<'_> {
         self.visit_nearest(&mut least, |least, [a, b]| {
             !least.passes_over(self.gap(&a, &b)) && {
                 let found = self.parts(a, b).closest(least.reach());
-                least.hear(found, |found| [found.distance, found.error])
+                least.offer_closest(found, |found| [found.distance, found.error])
             }
         });
         let (found, error) = least.finish().ok()?;

@@ -321,7 +321,7 @@ mod tests {
     /// The general path, which parts of compounds take, gives the same answers: for hulls of few corners and of many,
     /// thin ones, flat ones, rounded ones, and prisms, whose faces are flat up to rounding.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(80);
         let mut counts = Counts::default();
         for i in 0..4000_u32 {

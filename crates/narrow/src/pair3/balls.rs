@@ -436,7 +436,7 @@ pub(super) mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers.
     #[test]
-    fn parts_of_compounds_say_the_same() {
+    fn parts_of_compounds_have_the_same_answers() {
         let (mut near, mut apart) = (0, 0);
         for i in 0..2000_u32 {
             let number = |salt: u32| f64::from((i * 7919 + salt * 104_729) % 1000) / 500.0 - 1.0;

@@ -182,7 +182,7 @@ mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(99);
         let mut counts = Counts::default();
         for i in 0..6000 {

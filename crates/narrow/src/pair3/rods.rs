@@ -149,7 +149,7 @@ mod tests {
     /// The general path, which parts of compounds take, gives the same answers: for rods in any pose, crossed, and side
     /// by side.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(79);
         let mut counts = Counts::default();
         for i in 0..6000_u32 {

@@ -2,7 +2,7 @@ use super::super::course::Course;
 use super::super::impact;
 use super::super::piece::for_pieces;
 use super::super::stretch::{Stretch, Travel};
-use super::{Legs, seen};
+use super::{Legs, in_axes_of};
 use crate::counted::steps_of;
 use crate::impact2::Impact2;
 use crate::numbers::Numbers;
@@ -134,7 +134,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
                 for leg in &legs.legs {
                     let beside = leg.radius - piece.outer;
                     for share in (0..=16).map(|step| f64::from(step) / 16.0) {
-                        let truth = seen(stretch, 0, piece.center, leg.from + leg.span * share);
+                        let truth = in_axes_of(stretch, 0, piece.center, leg.from + leg.span * share);
                         let off = (leg.start + leg.way * share - truth).length();
                         assert!(off <= beside, "{i}: {off} {beside}");
                         furthest = furthest.max(off / beside.max(0.01));

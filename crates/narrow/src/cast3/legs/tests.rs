@@ -140,7 +140,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
                 let ends = passage.bend(0, part.center.length(), [leg.from, leg.from + leg.span]);
                 let beside = 0.125 * ends * leg.span * leg.span;
                 for share in (0..=16).map(|step| f64::from(step) / 16.0) {
-                    let truth = passage.seen(0, local, leg.from + leg.span * share);
+                    let truth = passage.in_axes_of(0, local, leg.from + leg.span * share);
                     let off = (leg.start + leg.way * share - truth).length();
                     assert!(off <= beside + 1e-12 && beside < leg.radius - 0.5, "{i}: {off} {beside}");
                     furthest = furthest.max(off / beside.max(0.01));

@@ -16,7 +16,7 @@
 use super::axes::Axes;
 use super::prism::Prism;
 use super::rejected_gaps::ClosestPoints;
-use crate::polyhedron::TELLING;
+use crate::polyhedron::CLEAR_GAP;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
@@ -33,7 +33,7 @@ impl Prism<'_> {
         let between = on_cuboid - on_triangle;
         let distance = between.length();
         let size = 2.0 * standing.outer_radius;
-        if distance - standing.radius <= (TELLING * size).max(self.doubt) {
+        if distance - standing.radius <= (CLEAR_GAP * size).max(self.doubt) {
             return None;
         }
         let towards = between / distance;

@@ -4,7 +4,7 @@ use super::facet::Facet;
 use super::groups::{Base, Pin};
 use super::{Known, PartTest};
 use crate::feature::Feature;
-use crate::ground3::SeenAt;
+use crate::ground3::Viewpoint;
 use asunder_geometry::glam::DVec3;
 use core::ops::ControlFlow;
 
@@ -13,10 +13,10 @@ impl PartTest<'_> {
     /// it overlaps, if only yes or no is wanted.
     pub(super) fn look_at_all(&self, normal: DVec3, is_yes_enough: bool, known: &mut Known) {
         let ground = self.query.on.ground;
-        let seen_at = SeenAt::Far(-normal);
+        let viewpoint = Viewpoint::Far(-normal);
         let _ = ground.visit_near(&self.bounds, |number| {
             if let Some(facet) = Facet::front_of(number, ground.corners(number))
-                && (!ground.is_one_sided() || seen_at.is_in_front(facet.corners[0], facet.normal))
+                && (!ground.is_one_sided() || viewpoint.is_in_front(facet.corners[0], facet.normal))
             {
                 self.add_corners(&facet, normal, known);
             }

@@ -91,8 +91,9 @@ impl Standing<'_> {
         let mut overlapping = false;
         let _ = self.chain.visit_where(self.is_near(&zone), |segment| {
             let Some(run) = self.chain.run_of(segment) else { return ControlFlow::Continue(()) };
-            let seen = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
-            let overlap = seen.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
+            let overlap_found = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
+            let overlap =
+                overlap_found.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
             // The last run of a closed chain may be the first one again.
             known = [known[0].or(Some((run, overlap))), Some((run, overlap))];
             overlapping |= match overlap {

@@ -82,7 +82,7 @@ fn measured(pair: &Pair3) -> Measured3 {
 }
 
 #[test]
-fn the_closed_form_says_what_the_search_says() {
+fn the_closed_form_agrees_with_the_search() {
     let (mut inside, mut gaps, mut named) = (0, 0, 0);
     for case in cases() {
         let pair = case.pair();
@@ -118,7 +118,7 @@ fn the_closed_form_says_what_the_search_says() {
 }
 
 #[test]
-fn the_general_path_tells_the_same_bits() {
+fn the_general_path_gives_the_same_bits() {
     for case in cases() {
         for pair in [case.pair(), case.swapped()] {
             let bases = pair.bases();
@@ -220,7 +220,7 @@ fn the_middle_looks_out_of_the_lowest_of_the_nearest_faces() {
 }
 
 #[test]
-fn touching_is_told_exactly_on_faces_edges_and_corners() {
+fn touching_is_decided_exactly_on_faces_edges_and_corners() {
     let half = DVec3::new(1.0, 2.0, 3.0);
     let cuboid = Shape3::from(Cuboid::from_half_extents(half.as_vec3()).unwrap());
     let at = Pose3::IDENTITY;

@@ -171,12 +171,12 @@ mod tests {
                 patches += 1;
                 for leaning in [None, Some(DVec3::new(0.6, 0.0, 0.8))] {
                     let mut manifolds = [Manifold3::BLANK; 2];
-                    let is_told = fill(&touching, &found, leaning, &mut manifolds[0]).is_some();
+                    let is_filled = fill(&touching, &found, leaning, &mut manifolds[0]).is_some();
                     let is_too = anywhere(Fill(&touching, &found, leaning, &mut manifolds[1])).is_some();
                     // Debug output of a float is different where its bits are.
                     let [one, other] = manifolds.map(|manifold| format!("{manifold:?}"));
-                    assert_eq!((is_told, one), (is_too, other));
-                    filled += usize::from(is_told);
+                    assert_eq!((is_filled, one), (is_too, other));
+                    filled += usize::from(is_filled);
                 }
             }
         }

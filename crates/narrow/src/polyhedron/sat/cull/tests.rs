@@ -139,7 +139,7 @@ fn separation_along(solid: &Solid, other: &Solid, direction: DVec3) -> f64 {
 
 /// Spheres and points together, as the full test uses them.
 #[test]
-fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
+fn no_face_and_no_edge_is_culled_whose_axes_reach_the_least_separation() {
     let mut random = Random(0x5895_59F1_1A8B_3F7D);
     let (mut faces, mut edges) = (Count::default(), Count::default());
     for case in 0..600_u64 {
