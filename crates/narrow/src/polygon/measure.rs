@@ -13,7 +13,7 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Rect, Shape2};
 
-/// What is asked about two shapes.
+/// A query about two shapes.
 #[derive(Clone, Copy)]
 pub(crate) struct Query {
     /// Separations above this are not wanted, in metres.

@@ -77,7 +77,7 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
-/// What is asked of a pair.
+/// A query about a pair.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Query {
     /// Beyond this separation, in metres, nothing else needs to be known.
