@@ -282,7 +282,7 @@ impl Pair3<'_> {
     /// The first touch that counts, of all pairs of convex parts.
     fn first_touch_of_parts(&self, passage: &Passage, counts: Counts) -> Option<Impact3> {
         let mut first: Option<Impact3> = None;
-        let mut is_asked = false;
+        let mut is_overlap_tested = false;
         let whole_b = Part::whole(self.shape_b, &passage.bases[1]);
         let is_many = matches!(self.shape_b, Shape3::Compound(_));
         let overlaps = passage.for_parts_met((self.shape_a, 0), &whole_b, 1.0, |a, from| {
@@ -300,10 +300,10 @@ impl Pair3<'_> {
                     End::Apart => return false,
                     End::Met(met) => met,
                     End::Unclear(met, is_parting) => {
-                        if counts.is_all() && !is_asked && self.overlaps() {
+                        if counts.is_all() && !is_overlap_tested && self.overlaps() {
                             return true;
                         }
-                        is_asked = true;
+                        is_overlap_tested = true;
                         let is_touched = || self.parts(&passage.bases, a, b).convex.verdict().overlapping;
                         if is_parting || !counts.is_all() && is_touched() {
                             return false;

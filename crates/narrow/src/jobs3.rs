@@ -13,9 +13,9 @@ use crate::answer::Separation3;
 use crate::batch::Batch3;
 use crate::feature::Hint;
 use crate::pair3::{Pair3, limit_of, reach_of};
-use crate::polyhedron::cuboids::asked::Contact;
 use crate::polyhedron::cuboids::eight::{Eight, LANES};
 use crate::polyhedron::cuboids::placed::Posed;
+use crate::polyhedron::cuboids::queries::Contact;
 use crate::room::in_place;
 use asunder_geometry::{Pose3, Shape3};
 

@@ -84,13 +84,17 @@ impl<P> Least<P> {
 }
 
 impl<C> Least<Option<C>> {
-    /// Takes the answer for two parts within reach: their closest points, of which `told` gives distance and error; or
-    /// `None` if they overlap. Returns whether the search can stop, as nothing can be nearer.
-    pub(crate) fn hear(&mut self, found: Result<Option<C>, f32>, told: impl Fn(&C) -> [f32; 2]) -> bool {
+    /// Takes the answer for two parts within reach: their closest points, of which `measured` gives distance and error;
+    /// or `None` if they overlap. Returns whether the search can stop, as nothing can be nearer.
+    pub(crate) fn offer_closest(
+        &mut self,
+        found: Result<Option<C>, f32>,
+        measured: impl Fn(&C) -> [f32; 2],
+    ) -> bool {
         match found {
             Err(at_least) => self.give_up(at_least),
             Ok(Some(closest)) => {
-                let [distance, error] = told(&closest);
+                let [distance, error] = measured(&closest);
                 self.offer(Some(closest), distance, error);
             }
             Ok(None) => {

@@ -17,10 +17,10 @@ thread_local! {
 /// A thread's lists that are not in use.
 pub(crate) type Lists<T> = LocalKey<Cell<Vec<Vec<T>>>>;
 
-/// Lends an empty list to `ask`, and takes it back. A question within a question gets another list.
-pub(crate) fn with_list<T, R>(lists: &'static Lists<T>, ask: impl FnOnce(&mut Vec<T>) -> R) -> R {
+/// Lends an empty list to `run`, and takes it back. A question within a question gets another list.
+pub(crate) fn with_list<T, R>(lists: &'static Lists<T>, run: impl FnOnce(&mut Vec<T>) -> R) -> R {
     let mut list = take_list(lists);
-    let answer = ask(&mut list);
+    let answer = run(&mut list);
     give_back(lists, list);
     answer
 }
@@ -43,17 +43,17 @@ pub(crate) fn give_back<T>(lists: &'static Lists<T>, list: Vec<T>) {
 }
 
 /// Lends the manifolds of a pair in the plane within a margin.
-pub(crate) fn with_manifolds2<R>(pair: &Pair2, margin: f32, ask: impl FnOnce(&[Manifold2]) -> R) -> R {
+pub(crate) fn with_manifolds2<R>(pair: &Pair2, margin: f32, run: impl FnOnce(&[Manifold2]) -> R) -> R {
     with_list(&MANIFOLDS2, |manifolds| {
         pair.add_manifolds(margin, manifolds);
-        ask(manifolds)
+        run(manifolds)
     })
 }
 
 /// The same in space.
-pub(crate) fn with_manifolds3<R>(pair: &Pair3, margin: f32, ask: impl FnOnce(&[Manifold3]) -> R) -> R {
+pub(crate) fn with_manifolds3<R>(pair: &Pair3, margin: f32, run: impl FnOnce(&[Manifold3]) -> R) -> R {
     with_list(&MANIFOLDS3, |manifolds| {
         let _ = pair.contact(margin, Hint::NONE, Some(manifolds));
-        ask(manifolds)
+        run(manifolds)
     })
 }

@@ -14,7 +14,7 @@ use crate::lists::with_manifolds2;
 use crate::points::ContactPoints;
 use crate::polygon::convex::Convex;
 use crate::polygon::manifold::Touch;
-use crate::polygon::measure::{Asked, Near, Probe};
+use crate::polygon::measure::{Near, Probe, Query};
 use crate::polygon::outline::Turn;
 use crate::polygon::quick::Bodies;
 use asunder_geometry::glam::{DVec2, Vec2};
@@ -129,7 +129,7 @@ impl<'a> Pair2<'a> {
     pub fn overlaps_front(&self) -> bool {
         let has_one_side = |shape: &Shape2| matches!(shape, Shape2::Chain(chain) if chain.is_one_sided());
         if has_one_side(self.shape_a) || has_one_side(self.shape_b) {
-            self.overlaps_seen()
+            self.overlaps_facing()
         } else {
             self.overlaps()
         }
@@ -202,7 +202,7 @@ impl<'a> Pair2<'a> {
         if let Some(found) = self.separation_apart(limit) {
             return found;
         }
-        match self.bodies().answer(&Asked { limit, hint: Hint::NONE, points: false }) {
+        match self.bodies().answer(&Query { limit, hint: Hint::NONE, points: false }) {
             Some(Probe::Near(near)) => return measured(&near),
             Some(Probe::Beyond(at_least, _)) => return Separation2::AtLeast(at_least),
             None => {}
@@ -291,9 +291,9 @@ impl<'a> Pair2<'a> {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the reported number decides.
         let reach = f64::from(margin.next_up());
-        let asked = Asked { limit: reach, hint, points: is_wanted };
+        let query = Query { limit: reach, hint, points: is_wanted };
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
-        match self.bodies().answer(&asked) {
+        match self.bodies().answer(&query) {
             Some(Probe::Near(near)) => {
                 if !is_near(&near) {
                     return (near.hint, Err(0.0));
@@ -307,10 +307,10 @@ impl<'a> Pair2<'a> {
             None => {}
         }
         if self.is_compound() {
-            return self.contact_of_parts(&asked, margin, &mut keep);
+            return self.contact_of_parts(&query, margin, &mut keep);
         }
         let [a, b] = [Part::whole(self.shape_a, &self.turn_a), Part::whole(self.shape_b, &self.turn_b)];
-        let (hint, found) = self.parts(a, b).contact(&asked, margin, &mut keep);
+        let (hint, found) = self.parts(a, b).contact(&query, margin, &mut keep);
         (hint, found.map(|found| found.0))
     }
 
@@ -322,17 +322,17 @@ impl<'a> Pair2<'a> {
         if !self.is_compound() {
             let [a, b] = [Part::whole(self.shape_a, &self.turn_a), Part::whole(self.shape_b, &self.turn_b)];
             let parts = self.parts(a, b);
-            return match parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: false }) {
+            return match parts.convex.probe(&Query { limit, hint: Hint::NONE, points: false }) {
                 Probe::Beyond(at_least, _) => Err(at_least),
                 Probe::Near(near) => Ok((parts.place, near)),
             };
         }
         let mut least = Least::within(limit);
-        let ask = |least: &mut Least<_>, [a, b]: [Part; 2]| {
+        let visit = |least: &mut Least<_>, [a, b]: [Part; 2]| {
             if !least.passes_over(self.gap(&a, &b)) {
                 let parts = self.parts(a, b);
-                let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
-                match parts.convex.probe(&asked) {
+                let query = Query { limit: least.reach(), hint: Hint::NONE, points: false };
+                match parts.convex.probe(&query) {
                     Probe::Beyond(at_least, _) => least.give_up(at_least),
                     Probe::Near(near) => {
                         let (separation, error) = (near.separation, near.error);
@@ -342,7 +342,7 @@ impl<'a> Pair2<'a> {
             }
             false
         };
-        self.ask_nearest(&mut least, ask);
+        self.visit_nearest(&mut least, visit);
         let ((place, mut near), error) = least.finish()?;
         near.error = error;
         Ok((place, near))
@@ -355,17 +355,17 @@ impl<'a> Pair2<'a> {
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding circles are at most `within` apart.
-    fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+    fn any(&self, within: f64, mut test: impl FnMut(&Parts<'a>) -> bool) -> bool {
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         if !self.is_compound() {
-            return ask(&self.parts(Part::whole(self.shape_a, &self.turn_a), whole_b));
+            return test(&self.parts(Part::whole(self.shape_a, &self.turn_a), whole_b));
         }
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > within;
         let beside_b = || self.around_b(&whole_b, within);
         for_parts_near(self.shape_a, &self.turn_a, beside_b, |a| {
             let beside_a = || self.around_a(&a, within);
-            let ask = |b| !is_far(&a, &b) && ask(&self.parts(a, b));
-            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &self.turn_b, beside_a, ask)
+            let test = |b| !is_far(&a, &b) && test(&self.parts(a, b));
+            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &self.turn_b, beside_a, test)
         })
     }
 
@@ -415,12 +415,12 @@ impl Parts<'_> {
     /// by how much they are beyond it.
     fn contact(
         &self,
-        asked: &Asked,
+        query: &Query,
         margin: f32,
         keep: &mut impl FnMut(Manifold2),
     ) -> (Hint, Result<(bool, f32), f32>) {
-        let near = match self.convex.probe(asked) {
-            Probe::Beyond(at_least, hint) => return (hint, Err(beyond(at_least.into(), asked.limit))),
+        let near = match self.convex.probe(query) {
+            Probe::Beyond(at_least, hint) => return (hint, Err(beyond(at_least.into(), query.limit))),
             Probe::Near(near) => near,
         };
         let overlapping = near.verdict.overlapping;

@@ -19,9 +19,9 @@ use crate::feature::Hint;
 use crate::ground3::{OnGround, contact_on_ground};
 use crate::least::Least;
 use crate::lists::with_manifolds3;
-use crate::polyhedron::convex::{Asked, IDENTITY, Near, Probe, Wanted};
-use crate::polyhedron::cuboids::asked::Contact;
+use crate::polyhedron::convex::{IDENTITY, Near, Probe, Query, Wanted};
 use crate::polyhedron::cuboids::placed::Posed;
+use crate::polyhedron::cuboids::queries::Contact;
 use crate::precision::round_down;
 use crate::room::{Deepest, Room, in_place};
 use asunder_geometry::glam::DVec3;
@@ -247,10 +247,10 @@ impl<'a> Pair3<'a> {
         }
         let bases = self.bases();
         let mut least = Least::within(f64::INFINITY);
-        self.ask_nearest(&bases, &mut least, |least, [a, b]| {
+        self.visit_nearest(&bases, &mut least, |least, [a, b]| {
             !least.passes_over(self.gap(&a, &b)) && {
                 let found = self.parts(&bases, a, b).closest(least.reach());
-                least.hear(found, |found| [found.distance, found.error])
+                least.offer_closest(found, |found| [found.distance, found.error])
             }
         });
         let (found, error) = least.finish().ok()?;
@@ -354,18 +354,18 @@ impl<'a> Pair3<'a> {
             return (hint, Err(beyond(gap, reach)));
         }
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
-        let asked = Asked { limit: reach, hint, wanted };
+        let query = Query { limit: reach, hint, wanted };
         if self.is_compound() {
-            return self.contact_of_parts(asked, margin, manifolds);
+            return self.contact_of_parts(query, margin, manifolds);
         }
-        let (hint, found) = self.wholes().contact(asked, margin, manifolds);
+        let (hint, found) = self.wholes().contact(query, margin, manifolds);
         (hint, found.map(|found| found.overlapping))
     }
 
-    /// Applies `tell` to the pair of parts with the least separation, or returns a bound if all are beyond the limit. A
-    /// callback, since the data of a pair is a kilobyte: with that returned, closest points of hulls took 1.13 times as
-    /// long.
-    fn nearest<R>(&self, limit: f64, tell: impl FnOnce(&Parts<'a>, &Near) -> R) -> Result<R, f32> {
+    /// Applies `report` to the pair of parts with the least separation, or returns a bound if all are beyond the limit.
+    /// A callback, since the data of a pair is a kilobyte: with that returned, closest points of hulls took 1.13 times
+    /// as long.
+    fn nearest<R>(&self, limit: f64, report: impl FnOnce(&Parts<'a>, &Near) -> R) -> Result<R, f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
             return Err(round_down(gap));
@@ -373,18 +373,18 @@ impl<'a> Pair3<'a> {
         let wanted = Wanted::Number;
         if !self.is_compound() {
             let parts = self.wholes();
-            return match parts.convex.probe(Asked { limit, hint: Hint::NONE, wanted }) {
+            return match parts.convex.probe(Query { limit, hint: Hint::NONE, wanted }) {
                 Probe::Beyond(at_least, _) => Err(at_least),
-                Probe::Near(near) => Ok(tell(&parts, &near)),
+                Probe::Near(near) => Ok(report(&parts, &near)),
             };
         }
         let mut least = Least::within(limit);
         let bases = self.bases();
-        let ask = |least: &mut Least<_>, [a, b]: [Part<'a>; 2]| {
+        let visit = |least: &mut Least<_>, [a, b]: [Part<'a>; 2]| {
             if !least.passes_over(self.gap(&a, &b)) {
                 let parts = self.parts(&bases, a, b);
-                let asked = Asked { limit: least.reach(), hint: Hint::NONE, wanted };
-                match parts.convex.probe(asked) {
+                let query = Query { limit: least.reach(), hint: Hint::NONE, wanted };
+                match parts.convex.probe(query) {
                     Probe::Beyond(at_least, _) => least.give_up(at_least),
                     Probe::Near(near) => {
                         let (separation, error) = (near.separation, near.error);
@@ -394,16 +394,16 @@ impl<'a> Pair3<'a> {
             }
             false
         };
-        self.ask_nearest(&bases, &mut least, ask);
+        self.visit_nearest(&bases, &mut least, visit);
         let ((parts, mut near), error) = least.finish()?;
         near.error = error;
-        Ok(tell(&parts, &near))
+        Ok(report(&parts, &near))
     }
 
     /// Whether the answer is yes for any pair of parts whose bounding spheres are at most `within` apart.
-    fn any(&self, within: f64, mut ask: impl FnMut(&Parts<'a>) -> bool) -> bool {
+    fn any(&self, within: f64, mut test: impl FnMut(&Parts<'a>) -> bool) -> bool {
         if !self.is_compound() {
-            return ask(&self.wholes());
+            return test(&self.wholes());
         }
         let bases = self.bases();
         let whole_b = Part::whole(self.shape_b, &bases[1]);
@@ -411,8 +411,8 @@ impl<'a> Pair3<'a> {
         let beside_b = || self.around_b(&whole_b, within);
         for_parts_near(self.shape_a, &bases[0], beside_b, |a| {
             let beside_a = || self.around_a(&a, within);
-            let ask = |b| !is_far(&a, &b) && ask(&self.parts(&bases, a, b));
-            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &bases[1], beside_a, ask)
+            let test = |b| !is_far(&a, &b) && test(&self.parts(&bases, a, b));
+            !is_far(&a, &whole_b) && for_parts_near(self.shape_b, &bases[1], beside_a, test)
         })
     }
 

@@ -135,9 +135,9 @@ impl Persistent2 {
         // NaN is not close.
         let is_close = moved.drift <= f64::from(self.terms.reach());
         let filled = if is_close { self.filled(&moved) } else { None };
-        let is_told = filled.is_some();
+        let is_filled = filled.is_some();
         to.extend(filled);
-        is_told
+        is_filled
     }
 
     /// The motion, where neither body turned.
@@ -172,11 +172,11 @@ impl Persistent2 {
         let [from_a, from_b] = [drift_from(&of_a, arm_b), drift_from(&of_b, arm_a)];
         // The normal turns with the body that sees the lesser drift of the other: along it, the separation holds for
         // both bodies as wholes.
-        let (seen, arm, seen_from) =
+        let (drift, arm, seen_from) =
             if from_a <= from_b { (from_a, arm_b, &of_a) } else { (from_b, arm_a, &of_b) };
         // This scaling moves points as turning does.
         let scaled = scale(0) + scale(1);
-        let (drift, spun) = (seen + scaled, spin * f64::from(arm) + scaled);
+        let (drift, spun) = (drift + scaled, spin * f64::from(arm) + scaled);
         let normal = seen_from.turn(normal_then);
         let turn = Turn { of_a, of_b, offset_then, normal_then };
         Moved { drift, spun, offset, normal, rise: 0.0, turn: Some(turn) }

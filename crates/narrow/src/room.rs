@@ -1,7 +1,7 @@
 //! Where the manifolds of a pair go: they are large, and written in place.
 
 use crate::answer::Manifold3;
-use crate::polyhedron::cuboids::asked::Contact;
+use crate::polyhedron::cuboids::queries::Contact;
 
 /// Where manifolds go.
 pub(crate) trait Room {
@@ -42,10 +42,10 @@ impl Room for Deepest {
 #[inline(always)]
 pub(crate) fn in_place(
     manifolds: &mut Vec<Manifold3>,
-    ask: impl FnOnce(Option<&mut Manifold3>) -> Contact,
+    run: impl FnOnce(Option<&mut Manifold3>) -> Contact,
 ) -> Contact {
     manifolds.push(Manifold3::BLANK);
-    let contact = ask(manifolds.last_mut());
+    let contact = run(manifolds.last_mut());
     if matches!(contact, Contact::Apart(..) | Contact::Unclear(_)) {
         manifolds.pop();
     }

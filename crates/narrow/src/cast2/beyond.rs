@@ -28,20 +28,20 @@ pub(super) struct Touched<'t> {
     are_ground: [bool; 2],
 }
 
-/// Calls `ask` with what is touched at the start: the contacts between the two, if they touch, and all that A touches.
+/// Calls `run` with what is touched at the start: the contacts between the two, if they touch, and all that A touches.
 pub(super) fn with_touched<R>(
     (pair, travel): (&Pair2, &Travel),
     (do_touch, touches): (bool, &[Touch2]),
-    ask: impl FnOnce(&Touched) -> R,
+    run: impl FnOnce(&Touched) -> R,
 ) -> R {
     let are_ground = [pair.shape_a.is_ground(), pair.shape_b.is_ground()];
     let size = pair.shape_a.outer_radius().min(pair.shape_b.outer_radius());
     let beside = Contacts::new(touches, size);
     if !do_touch {
-        return ask(&Touched { pair, travel, contacts: None, beside, are_ground });
+        return run(&Touched { pair, travel, contacts: None, beside, are_ground });
     }
     with_manifolds2(pair, 0.0, |manifolds| {
-        ask(&Touched { pair, travel, contacts: Some(Contacts::new(manifolds, size)), beside, are_ground })
+        run(&Touched { pair, travel, contacts: Some(Contacts::new(manifolds, size)), beside, are_ground })
     })
 }
 

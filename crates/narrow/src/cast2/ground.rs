@@ -9,7 +9,7 @@ use super::piece::{Piece, for_pieces};
 use super::stretch::Stretch;
 use super::{at_start, impact, is_passed};
 use crate::counted::count_step;
-use crate::ground2::{Surface, Told};
+use crate::ground2::{Region, Surface};
 use crate::impact2::Impact2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::DVec2;
@@ -212,10 +212,10 @@ fn surface_met(
     }
     let surface: Surface = course.surface(side, chain, &run, touching.at)?;
     let away = if side == 0 { touching.axis } else { -touching.axis };
-    let normal = match surface.tell_at(away, touching.points[side], course.nearness()) {
-        Told::Corner => away,
-        Told::Face | Told::Inner => surface.normal,
-        Told::Beyond(normal) => normal,
+    let normal = match surface.region_at(away, touching.points[side], course.nearness()) {
+        Region::Corner => away,
+        Region::Face | Region::Inner => surface.normal,
+        Region::Beyond(normal) => normal,
     };
     let axis = if side == 0 { normal } else { -normal };
     let looks_back = |axis: DVec2| course.looks_back(axis, touching, 1 - side);

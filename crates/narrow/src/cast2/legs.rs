@@ -84,11 +84,11 @@ impl Legs {
         };
         let count = (beside(0.0, until) / (BESIDE * (radius + size_of_parts(compound)))).sqrt().ceil();
         let count = count.clamp(1.0, MAX_LEGS as f64);
-        let (mut from, mut start) = (0.0, seen(stretch, which, other.center, 0.0));
+        let (mut from, mut start) = (0.0, in_axes_of(stretch, which, other.center, 0.0));
         let mut legs = ArrayVec::new();
         for number in 1..=count as usize {
             let to = until * (number as f64 / count);
-            let end = seen(stretch, which, other.center, to);
+            let end = in_axes_of(stretch, which, other.center, to);
             let (way, radius) = (end - start, radius + beside(from, to));
             legs.push(Leg { from, span: to - from, start, way, radius });
             (from, start) = (to, end);
@@ -139,7 +139,7 @@ impl Leg {
 }
 
 /// A point of the other body, given in that body's axes, as seen in the axes of body `which` at a time.
-fn seen(stretch: &Stretch, which: usize, point: DVec2, at: f64) -> DVec2 {
+fn in_axes_of(stretch: &Stretch, which: usize, point: DVec2, at: f64) -> DVec2 {
     let (arm, offset) = (stretch.spins[1 - which].turn_at(at).turn(point), stretch.offset_at(at));
     stretch.spins[which].turn_at(at).turn_back(if which == 0 { offset + arm } else { arm - offset })
 }

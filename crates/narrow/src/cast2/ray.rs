@@ -57,7 +57,7 @@ pub fn cast_ray2(shape: &Shape2, pose: &Pose2, ray: &Ray2, limit: f64) -> Option
         return ground::into_chain(chain, (pose, ray), &beam, limit);
     }
     let Shape2::Compound(compound) = shape else {
-        return Asked { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
+        return Target { shape, pose, part: None, index: 0, ray }.answer(&beam, limit);
     };
     over_parts((shape, compound), (pose, ray), &beam, limit)
 }
@@ -79,9 +79,9 @@ fn over_parts(
             }
             let local = part.pose();
             let origin = local.transform_back(beam.origin);
-            let seen =
+            let local_beam =
                 Beam::new(origin, local.turn_back(beam.direction), beam.summed + sum(local.position()))?;
-            Asked { shape: part.shape(), pose, part: Some(local), index, ray }.answer(&seen, reach)
+            Target { shape: part.shape(), pose, part: Some(local), index, ray }.answer(&local_beam, reach)
         }) else {
             return reach;
         };
@@ -131,7 +131,7 @@ struct Entry {
 }
 
 /// One convex shape, with all that an exact answer needs.
-struct Asked<'a> {
+struct Target<'a> {
     shape: &'a Shape2,
     pose: &'a Pose2,
     part: Option<&'a Pose2>,
@@ -162,7 +162,7 @@ impl Beam {
     }
 }
 
-impl Asked<'_> {
+impl Target<'_> {
     fn answer(&self, beam: &Beam, limit: f64) -> Option<RayHit2> {
         let entry = match self.way(beam) {
             Way::Misses => return None,
@@ -240,7 +240,7 @@ impl Asked<'_> {
         let core = self.shape.core();
         let outline = Outline::new(self.shape, &core, Turn::to(DVec2::X), DVec2::ZERO);
         let reach = sum(self.shape.center().as_dvec2()) + f64::from(self.shape.outer_radius());
-        let seen = Seen {
+        let along = AlongRay {
             outline: &outline,
             normals: core.normals(),
             beam,
@@ -248,7 +248,7 @@ impl Asked<'_> {
             radius: f64::from(self.shape.radius()) / self.stretch(),
             rounding: beam.rounding(reach),
         };
-        if is_searched(self.shape) { seen.search() } else { seen.one_by_one() }
+        if is_searched(self.shape) { along.search() } else { along.one_by_one() }
     }
 }
 
@@ -273,7 +273,7 @@ fn into_half_plane(normal: DVec2, beam: &Beam) -> Way {
 }
 
 /// An outline as seen from along a ray.
-struct Seen<'a> {
+struct AlongRay<'a> {
     outline: &'a Outline<'a>,
     normals: &'a [DVec2],
     beam: &'a Beam,
@@ -283,7 +283,7 @@ struct Seen<'a> {
     rounding: f64,
 }
 
-impl Seen<'_> {
+impl AlongRay<'_> {
     /// Tests every edge; if none is hit, the circle around every vertex.
     fn one_by_one(&self) -> Way {
         for edge in 0..self.normals.len() {

@@ -57,7 +57,7 @@ fn touching_at_the_start_is_an_impact_at_once_also_on_the_way_out() {
 }
 
 #[test]
-fn half_planes_meet_what_they_are_told_to() {
+fn half_planes_meet_what_is_in_their_way() {
     let impact =
         cast((&circle(0.5), at(3.0, 10.5)), (&floor(), at(0.0, 0.0)), Vec2::new(7.0, -20.0)).unwrap();
     assert!((impact.fraction - 0.5).abs() < 1e-9 && impact.normal == Vec2::NEG_Y, "{impact:?}");

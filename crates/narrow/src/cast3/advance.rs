@@ -315,15 +315,16 @@ impl Course<'_> {
             along += spin_b.cross(axis);
         }
         // Along an axis that turns with it, a body always reaches equally far.
-        let seen = |i: usize, spin: DVec3| if carrier == Some(i) { axis } else { along + axis.cross(spin) };
+        let axis_for =
+            |i: usize, spin: DVec3| if carrier == Some(i) { axis } else { along + axis.cross(spin) };
         let reach_a = match a {
-            Placed::Core(solid) => solid.support(seen(0, spin_a)).reach,
+            Placed::Core(solid) => solid.support(axis_for(0, spin_a)).reach,
             Placed::HalfSpace(_) => 0.0,
         };
         let reach_b = match b {
             // From B's own position.
             Placed::Core(solid) => {
-                let along = seen(1, spin_b);
+                let along = axis_for(1, spin_b);
                 solid.support(-along).reach + along.dot(moment.between)
             }
             Placed::HalfSpace(_) => 0.0,

@@ -56,7 +56,7 @@ pub(super) fn sweep(
     let ((basis_a, shift_a), (basis_b, shift_b)) =
         (parts[0].placed(&passage.bases[0]), parts[1].placed(&passage.bases[1]));
     let between = passage.between_at(stretch.from);
-    let seen = |between: DVec3| basis_a.turn_back(between + (shift_b - shift_a));
+    let in_axes_of_a = |between: DVec3| basis_a.turn_back(between + (shift_b - shift_a));
     let relative = basis_b.relative_to(&basis_a);
     let boxes = Boxes {
         half_a: a.half_extents().as_dvec3().to_array(),
@@ -71,7 +71,7 @@ pub(super) fn sweep(
     let doubt = IN_SPACE[1] * (f64::EPSILON / 2.0) * reach;
     let drift = basis_a.turn_back(passage.drift);
     let slack = 1e-10 * size / pace;
-    let (enter, leave, axis) = boxes.slabs(seen(between), drift, doubt).latest(slack);
+    let (enter, leave, axis) = boxes.slabs(in_axes_of_a(between), drift, doubt).latest(slack);
     // A quotient and a product: below four units.
     let (early, late) = (1.0 - 4.0 * f64::EPSILON, 1.0 + 4.0 * f64::EPSILON);
     if leave < 0.0 || enter * early > leave * late || enter * early > span * late {
@@ -83,7 +83,7 @@ pub(super) fn sweep(
     }
     let fraction = (stretch.from + enter * early).next_down().min(stretch.to);
     let between = passage.between_at(fraction);
-    let offset = seen(between);
+    let offset = in_axes_of_a(between);
     let [on_a, on_b] = boxes.closest(axis, offset, drift, (IMPACT_REST * size).max(16.0 * doubt))?;
     let rounding = if fraction > 0.0 { passage.rounding } else { 0.0 };
     Some(End::Met(Met {

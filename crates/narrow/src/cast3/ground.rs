@@ -20,7 +20,7 @@ use super::beyond::MOMENTS;
 use super::counts::Counts;
 use super::passage::Passage;
 use super::{impact_of, part_end};
-use crate::ground3::{Corners, Facing, OnGround, SeenAt, Touched};
+use crate::ground3::{Corners, Facing, OnGround, Touched, Viewpoint};
 use crate::impact3::Impact3;
 use crate::pair3::{Pair3, Part};
 use asunder_geometry::Shape3;
@@ -35,7 +35,7 @@ struct First {
     /// The part's radius, in metres.
     radius: f64,
     /// Tells which side the part is on at the start, in the ground's axes.
-    seen_at: SeenAt,
+    viewpoint: Viewpoint,
 }
 
 /// The search for the first touch in one motion over one ground.
@@ -54,7 +54,7 @@ struct Search<'s> {
 impl Pair3<'_> {
     pub(super) fn first_touch_on(&self, on: &OnGround, passage: &Passage, counts: Counts) -> Option<Impact3> {
         if passage.is_still() {
-            return self.overlaps_seen(on).then(|| self.touching_at_start());
+            return self.overlaps_facing(on).then(|| self.touching_at_start());
         }
         let drift = if on.is_b { passage.drift } else { -passage.drift };
         let way = on.basis.turn_back(drift);
@@ -67,7 +67,7 @@ impl Pair3<'_> {
         if search.touches {
             return Some(self.touching_at_start());
         }
-        search.first.map(|first| told(on, passage, &first).0)
+        search.first.map(|first| impact_and_facing(on, passage, &first).0)
     }
 }
 
@@ -116,7 +116,7 @@ impl Search<'_> {
         let corners = on.ground.corners(number);
         let is_beside =
             || self.passage.is_straight() && placed.passes(&placed.beside(corners), self.way * until);
-        if !on.sees(corners, placed.seen_at) || is_beside() {
+        if !on.is_facing(corners, placed.viewpoint) || is_beside() {
             return until;
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };
@@ -141,7 +141,8 @@ impl Search<'_> {
         let rank = (met.fraction, part.index, number);
         if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
             let radius = f64::from(part.shape.radius());
-            let first = First { met, part: part.index, triangle: number, radius, seen_at: placed.seen_at };
+            let first =
+                First { met, part: part.index, triangle: number, radius, viewpoint: placed.viewpoint };
             if !self.is_passed(&first, parts) {
                 self.first = Some(first);
             }
@@ -155,7 +156,7 @@ impl Search<'_> {
         if !is_one_sided && self.counts.is_all() {
             return false;
         }
-        let (impact, facing) = told(self.on, self.passage, first);
+        let (impact, facing) = impact_and_facing(self.on, self.passage, first);
         if is_one_sided && facing.is_left && self.stays_in_front(first, parts) {
             return true;
         }
@@ -180,7 +181,7 @@ impl Search<'_> {
             let between = passage.between_at(at);
             let to_body = if on.is_b { -between } else { between };
             let center = basis(ground).turn_back(to_body + basis(body).turn(local));
-            SeenAt::Place(center).is_in_front(a, normal)
+            Viewpoint::Place(center).is_in_front(a, normal)
         })
     }
 }
@@ -190,7 +191,7 @@ impl Search<'_> {
 ///
 /// A body that turns may lean over an inner edge from the far side, and what is level is still decided by the ground's
 /// direction: a box that slides over a hill, pressed into it, meets the far corners from inside.
-fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
+fn impact_and_facing(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
     let met = &first.met;
     let [_, of_ground] = on.in_order([0, 1]);
     let basis = passage.turns[of_ground].map_or(on.basis, |turn| turn.basis_at(met.fraction));
@@ -201,7 +202,7 @@ fn told(on: &OnGround, passage: &Passage, first: &First) -> (Impact3, Facing) {
         away: basis.turn_back(towards_body),
         way: basis.turn_back(way_of_body(on, passage, first)),
     };
-    let facing = on.facing(&touched, first.seen_at);
+    let facing = on.facing(&touched, first.viewpoint);
     let facing = Facing { away: basis.turn(facing.away), ..facing };
     let away = if facing.is_left && !touched.is_left(touched.away) { towards_body } else { facing.away };
     let normal = if on.is_b { -away } else { away };

@@ -122,11 +122,11 @@ impl Passage {
         let count = (beside(0.0, until) / (BESIDE * (radius + size_of_parts(compound)))).sqrt().ceil();
         let count = count.clamp(1.0, MAX_LEGS as f64);
         let local = self.bases[1 - i].turn_back(other.center);
-        let (mut from, mut start) = (0.0, self.seen(i, local, 0.0));
+        let (mut from, mut start) = (0.0, self.in_axes_of(i, local, 0.0));
         let mut legs = ArrayVec::new();
         for number in 1..=count as usize {
             let to = until * (number as f64 / count);
-            let end = self.seen(i, local, to);
+            let end = self.in_axes_of(i, local, to);
             let (way, radius) = (end - start, radius + beside(from, to));
             legs.push(Leg { from, span: to - from, start, way, radius });
             (from, start) = (to, end);
@@ -135,7 +135,7 @@ impl Passage {
     }
 
     /// A point of the other body, given in that body's axes, as seen in the axes of body `i` at a fraction.
-    fn seen(&self, i: usize, point: DVec3, fraction: f64) -> DVec3 {
+    fn in_axes_of(&self, i: usize, point: DVec3, fraction: f64) -> DVec3 {
         let basis = |i: usize| self.turns[i].map_or(self.bases[i], |turn| turn.basis_at(fraction));
         let (arm, between) = (basis(1 - i).turn(point), self.between_at(fraction));
         basis(i).turn_back(if i == 0 { between + arm } else { arm - between })

@@ -232,13 +232,13 @@ impl<'a> Cast<'a> {
                 let hit = self.by_steps(&part(), matches!(meeting, Meeting::Unclear));
                 hit.filter(|hit| hit.distance <= limit)
             }
-            closed => self.told(closed, limit),
+            closed => self.hit_in_closed_form(closed, limit),
         }
     }
 
     /// The same for a meeting in closed form.
     #[inline(always)]
-    fn told(&self, meeting: Meeting, limit: f64) -> Option<RayHit3> {
+    fn hit_in_closed_form(&self, meeting: Meeting, limit: f64) -> Option<RayHit3> {
         match meeting {
             Meeting::At(distance, normal, error) if distance <= limit => Some(RayHit3 {
                 distance,

@@ -166,20 +166,20 @@ fn boxes_by_their_axes_and_balls_by_their_own_meet_where_their_hulls_do() {
             _ => Hull::from_points(&Cuboid::from_half_extents(half).unwrap().vertices()).unwrap().into(),
         });
         let cast = |[a, b]: &[Shape3; 2]| Pair3::new(a, &here, b, &there).cast(way);
-        let told =
+        let context =
             format!("{case}: {:?} {:?} {halves:?} {here:?} {there:?} {way}", cast(&quick), cast(&slow));
         match (cast(&quick), cast(&slow)) {
             (Some(quick), Some(slow)) => {
                 hits += usize::from(!quick.overlapping);
-                assert_eq!(quick.overlapping, slow.overlapping, "{told}");
-                assert!(quick.error < 1e-8, "{told}");
+                assert_eq!(quick.overlapping, slow.overlapping, "{context}");
+                assert!(quick.error < 1e-8, "{context}");
                 // Each is before the true fraction by no more than its gap over the speed at which that closes.
                 let closing = f64::from(slow.normal.dot(way).min(quick.normal.dot(way)));
                 let room = f64::from(quick.error + slow.error) / closing.max(1e-3);
-                assert!((quick.fraction - slow.fraction).abs() <= 2.0 * room, "{told}");
+                assert!((quick.fraction - slow.fraction).abs() <= 2.0 * room, "{context}");
             }
             (None, None) => misses += 1,
-            _ => panic!("{told}"),
+            _ => panic!("{context}"),
         }
     }
     assert!(hits > 1000 && misses > 300, "{hits} {misses}");

@@ -3,5 +3,5 @@
 mod surface;
 mod zone;
 
-pub(crate) use surface::{Surface, Told};
+pub(crate) use surface::{Region, Surface};
 pub(crate) use zone::Zone;

@@ -38,7 +38,7 @@ pub(crate) struct Surface {
 
 /// What a direction from the ground to a body is for the run that it was found on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Told {
+pub(crate) enum Region {
     /// It is the run's normal.
     Face,
     /// It is that of a corner, or a loose end.
@@ -94,15 +94,15 @@ impl Surface {
     }
 
     /// What a unit direction from the ground to the body is.
-    pub(crate) fn tell(&self, direction: DVec2) -> Told {
+    pub(crate) fn region_of(&self, direction: DVec2) -> Region {
         let (lean, height) = (direction.dot(self.along), direction.dot(self.normal));
         if lean.abs() <= ALONG_GROUND {
-            return if height > 0.0 { Told::Face } else { Told::Inner };
+            return if height > 0.0 { Region::Face } else { Region::Inner };
         }
         let end = usize::from(lean > 0.0);
         let Some((next, is_in_front)) = self.neighbours[end] else {
             let is_seen = !self.is_one_sided || height >= -BEHIND_END;
-            return if is_seen { Told::Corner } else { Told::Beyond(self.normal) };
+            return if is_seen { Region::Corner } else { Region::Beyond(self.normal) };
         };
         // Away from the corner.
         let leaving = if end == 1 { next } else { -next };
@@ -114,26 +114,26 @@ impl Surface {
         let is_convex = rise < 0.0 || leads_back;
         let is_seen = !self.is_one_sided || is_convex || height >= -ALONG_GROUND;
         if direction.dot(leaving) <= ALONG_GROUND && is_seen {
-            return Told::Corner;
+            return Region::Corner;
         }
         let normal = if is_in_front { right_of(next) } else { -right_of(next) };
         // A body in front of one run and behind the other sees the corner over the one that it is beyond.
         let is_across = is_in_front != self.is_front && !self.is_one_sided;
         let is_sharp = rise < 0.0 && normal.dot(self.normal) < SHARP_CORNER;
         if is_across || (is_sharp && is_in_front == self.is_front) {
-            Told::Beyond(normal)
+            Region::Beyond(normal)
         } else {
-            Told::Inner
+            Region::Inner
         }
     }
 
     /// The same for a point where the ground is touched: inner vertices that the run may have are no corners. `near` is
     /// how far from an end counts as the end.
-    pub(crate) fn tell_at(&self, direction: DVec2, point: DVec2, near: f64) -> Told {
-        let told = self.tell(direction);
+    pub(crate) fn region_at(&self, direction: DVec2, point: DVec2, near: f64) -> Region {
+        let region = self.region_of(direction);
         let end = self.ends[usize::from(direction.dot(self.along) > 0.0)];
         let is_inner = (point - end).dot(self.along).abs() > near + self.run.unevenness();
-        if is_inner && told != Told::Face { Told::Inner } else { told }
+        if is_inner && region != Region::Face { Region::Inner } else { region }
     }
 }
 

@@ -11,17 +11,17 @@
 //!     no prominent edge or corner (convex, or on the rim) near the part, or its lowest vertex well inside:
 //!         the triangle's normal                                                                   (closer, prism)
 //!     a cheap axis separates them by more than the reach: done; any of a cuboid's thirteen        (standing, axes)
-//!     the edge or corner that is in reach has a contact through a neighbour already: done         (outstanding)
+//!     the edge or corner that is in reach has a contact through a neighbour already: done         (prominent_near)
 //!     an edge or corner lies well inside the part's face: that face's normal, if accepted         (against)
 //!     a cuboid overlaps it, and the axis of least depth is rejected: no kernel is called          (axes)
 //!     a cuboid is across a gap: closest points in closed form; if rejected, no kernel either      (gap)
 //!     else the kernels for part and triangle: their axis, if the feature's neighbours accept it   (meeting)
-//!         else the triangle's normal, unless a contact with other triangles frees it              (refused)
+//!         else the triangle's normal, unless a contact with other triangles frees it              (rejected)
 //!   where the part penetrates a flat patch: deeper points over the rest of that                   (whole, rim)
 //!   contact points join the group of their normal                                                 (groups)
 //!   overlap, yes or no: a segment of the part crosses a triangle, or all of it is above; else exactly
-//!   closer points across a gap, along rejected directions                                         (unsaid)
-//!   a smaller separation that many low bends (edges too flat for a normal of their own) may hide  (overlooked)
+//!   closer points across a gap, along rejected directions                                         (rejected_gaps)
+//!   a smaller separation that many low bends (edges too flat for a normal of their own) may hide  (second_search)
 //!   each group becomes a manifold; its error includes what low bends may hide                     (answer, protrusion)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature, judged with *all*
@@ -38,8 +38,8 @@
 //! of which only a corner lies in the box: the box leaves it sideways along the cliff, a direction that the triangle's
 //! neighbours reject; straight up would throw the box onto the cliff. So triangles whose axis was rejected wait until
 //! all others have been processed: they add nothing if moving the part along another normal found, by the depth along
-//! that normal, separates it from them too (see `refused`). Nor does two-sided ground that is seen from behind across a
-//! gap, where it lies below what the part stands on (`behind`).
+//! that normal, separates it from them too (see `rejected`). Nor does two-sided ground that is seen from behind across
+//! a gap, where it lies below what the part stands on (`behind`).
 //!
 //! **The fast path.** Say that the part's lowest vertex is over the triangle. Across a gap of the cores it is the
 //! closest point, and the triangle's normal is the answer. In overlap by h, a direction that leans by the angle a over
@@ -98,18 +98,18 @@ mod facet;
 mod gap;
 mod groups;
 mod meeting;
-mod outstanding;
 mod over;
-mod overlooked;
 mod plane;
 mod prism;
+mod prominent_near;
 mod protrusion;
-mod refused;
+mod rejected;
+mod rejected_gaps;
 mod rim;
 mod round;
+mod second_search;
 mod side;
 mod standing;
-mod unsaid;
 mod whole;
 
 use super::OnGround;
@@ -131,11 +131,11 @@ use meeting::Meeting;
 use over::Plane;
 use prism::{Incident, Prism};
 use protrusion::Levels;
-use refused::AllRefused;
+use rejected::AllRejected;
+use rejected_gaps::RejectedGaps;
 use round::Round;
 use standing::{Octets, Place, Standing};
 pub(super) use standing::{doubt_of, span_of};
-use unsaid::AllUnsaid;
 use whole::touching;
 
 /// Most triangles whose overlap decision waits until all have been seen.
@@ -159,10 +159,10 @@ fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bo
         return Some(None);
     }
     let poses = if on.is_b { [&pair.pose_a, &pair.pose_b] } else { [&pair.pose_b, &pair.pose_a] };
-    let asking = Asking { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin), is_plain };
+    let query = GroundQuery { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin), is_plain };
     let mut found: Option<bool> = None;
     for_parts(on.body, &on.body_basis, |part| {
-        if let Some(overlapping) = asking.contact_of(part, found == Some(true), manifolds) {
+        if let Some(overlapping) = query.contact_of(part, found == Some(true), manifolds) {
             found = Some(found.unwrap_or(false) || overlapping);
         }
         found == Some(true) && !manifolds.is_wanted()
@@ -171,7 +171,7 @@ fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bo
 }
 
 /// A query: contacts of a body on ground within a margin.
-struct Asking<'a> {
+struct GroundQuery<'a> {
     on: &'a OnGround<'a>,
     /// The body's and the ground's.
     poses: [&'a Pose3; 2],
@@ -194,9 +194,9 @@ struct Known {
     /// Triangles that are seen from behind, across a gap, and wait.
     behind: AllBehind,
     /// Triangles whose axis was rejected, and which wait.
-    refused: AllRefused,
+    rejected: AllRejected,
     /// Closest points across a gap whose direction was rejected.
-    unsaid: AllUnsaid,
+    rejected_gaps: RejectedGaps,
     incident: Option<Incident>,
     /// Lower bounds on the separation of triangles that have low bends.
     levels: Levels,
@@ -212,8 +212,8 @@ struct Unclear {
 }
 
 /// A part that is being tested against triangles.
-struct Seen<'s> {
-    asking: &'s Asking<'s>,
+struct PartTest<'s> {
+    query: &'s GroundQuery<'s>,
     standing: &'s Standing<'s>,
     meeting: Meeting<'s>,
     /// The part's box, grown by the reach.
@@ -221,7 +221,7 @@ struct Seen<'s> {
     is_ball: bool,
 }
 
-impl<'a> Asking<'a> {
+impl<'a> GroundQuery<'a> {
     /// Whether a part overlaps, if it is within the margin. Once another part is known to overlap, this part's own
     /// decision does not matter.
     fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
@@ -249,15 +249,15 @@ impl<'a> Asking<'a> {
         let bounds = self.on.bounds_around(&part, standing.turned, self.reach);
         let meeting = Meeting::new(self.on, part, self.poses);
         let is_ball = matches!(part.shape, Shape3::Sphere(_));
-        let seen = Seen { asking: self, standing: &standing, meeting, bounds, is_ball };
+        let test = PartTest { query: self, standing: &standing, meeting, bounds, is_ball };
         let mut known = Known::new([standing.slack, standing.even]);
         let is_yes_enough = !manifolds.is_wanted();
         if let Shape3::HalfSpace(half_space) = part.shape {
-            seen.look_at_all(place.axes.turn(half_space.unit_normal()), is_yes_enough, &mut known);
+            test.look_at_all(place.axes.turn(half_space.unit_normal()), is_yes_enough, &mut known);
         } else {
             let mut plane = None;
             let _ = self.on.ground.read_near(&bounds, |near| {
-                seen.look_at(near, &mut plane, &mut known);
+                test.look_at(near, &mut plane, &mut known);
                 if known.overlapping && is_yes_enough {
                     ControlFlow::Break(())
                 } else {
@@ -265,13 +265,13 @@ impl<'a> Asking<'a> {
                 }
             });
         }
-        seen.look_at_behind(&mut known);
-        seen.add_refused(&mut known);
+        test.look_at_behind(&mut known);
+        test.add_rejected(&mut known);
         if manifolds.is_wanted() {
-            seen.add_whole(&mut known);
+            test.add_whole(&mut known);
         }
-        seen.conclude(&mut known, is_overlap_known);
-        seen.bound_least(&mut known, manifolds.is_wanted());
+        test.conclude(&mut known, is_overlap_known);
+        test.bound_least(&mut known, manifolds.is_wanted());
         self.answer(part, &mut known, is_overlap_known, manifolds)
     }
 }
@@ -285,15 +285,15 @@ impl Known {
             shown_by: None,
             unclear: ArrayVec::new(),
             behind: ArrayVec::new_const(),
-            refused: ArrayVec::new_const(),
-            unsaid: ArrayVec::new_const(),
+            rejected: ArrayVec::new_const(),
+            rejected_gaps: ArrayVec::new_const(),
             incident: None,
             levels: Levels::new(),
         }
     }
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Processes one triangle; `plane` is that of the one before.
     fn look_at(&self, near: &NearTriangle, plane: &mut Option<Plane>, known: &mut Known) {
         count_step();
@@ -348,7 +348,7 @@ impl Seen<'_> {
         }
         if let Err(full) = known.unclear.try_push(Unclear { has_points, separation, number }) {
             let Unclear { number, .. } = full.element();
-            if self.meeting.overlaps(self.asking.on.ground, number) {
+            if self.meeting.overlaps(self.query.on.ground, number) {
                 known.settle(number);
             }
         }
@@ -364,7 +364,7 @@ impl Seen<'_> {
                 b.has_points.cmp(&a.has_points).then(by_depth).then(a.number.cmp(&b.number))
             });
             let mut numbers = known.unclear.iter().map(|unclear| unclear.number);
-            match numbers.find(|&number| self.meeting.overlaps(self.asking.on.ground, number)) {
+            match numbers.find(|&number| self.meeting.overlaps(self.query.on.ground, number)) {
                 Some(number) => known.settle(number),
                 None => known.groups.keep_within(-slack),
             }
@@ -374,7 +374,7 @@ impl Seen<'_> {
         {
             self.add_last(number, known);
         }
-        self.say(known);
+        self.report_rejected_gaps(known);
     }
 
     /// Adds the deepest point over a triangle that the part overlaps, where every point was clipped away: where the
@@ -383,11 +383,11 @@ impl Seen<'_> {
     #[cold]
     #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
         if let Shape3::HalfSpace(half_space) = standing.part.shape {
             return self.add_lowest_corner(number, standing.place.axes.turn(half_space.unit_normal()), known);
         }
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
+        let Some(facet) = Facet::facing(ground, number, standing.center) else { return };
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };

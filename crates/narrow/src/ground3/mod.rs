@@ -1,13 +1,13 @@
 //! Shapes on ground that is made of triangles.
 
-mod ask;
-mod ask_box;
-mod ask_round;
-mod ask_sides;
+mod bounds;
 mod contact;
 mod near;
+mod queries;
+mod sides;
+mod sphere;
 
-pub(crate) use ask_box::Corners;
-pub(crate) use ask_sides::{Facing, Touched};
+pub(crate) use bounds::Corners;
 pub(crate) use contact::{contact_on_ground, front_of, widened};
-pub(crate) use near::{OnGround, SeenAt, box_around};
+pub(crate) use near::{OnGround, Viewpoint, box_around};
+pub(crate) use sides::{Facing, Touched};

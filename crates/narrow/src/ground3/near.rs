@@ -7,7 +7,7 @@ use asunder_geometry::{Aabb3, Basis3, Ground, Shape3};
 
 /// A part's position, for deciding which side of a triangle it is on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum SeenAt {
+pub(crate) enum Viewpoint {
     /// The centre of its bounding sphere.
     Place(DVec3),
     /// At infinity in a unit direction: for a half-space the direction into it, as its position is an arbitrary point
@@ -19,7 +19,7 @@ pub(crate) enum SeenAt {
 /// front.
 const ASIDE: f64 = 1e-9;
 
-impl SeenAt {
+impl Viewpoint {
     /// Whether it is in front of a triangle, given by one of its corners and its normal, of any length.
     #[inline]
     pub(crate) fn is_in_front(self, corner: DVec3, normal: DVec3) -> bool {

@@ -128,7 +128,7 @@ pub(crate) struct Contacts<'c, T> {
     all: &'c [T],
     /// A size of the bodies in metres: it makes differences of axes comparable to those of separations.
     size: f64,
-    asked: Cell<u32>,
+    queries: Cell<u32>,
     /// The contact found last, which is often the one looked for next.
     found: Cell<Option<Bundle>>,
     /// The tree, built once that is worth it, in memory that the thread keeps.
@@ -148,7 +148,7 @@ impl<'c, T: AlongAxis> Contacts<'c, T> {
     pub(crate) fn new(all: &'c [T], size: f32) -> Self {
         // Where both are endless, axes alone decide.
         let size = f64::from(size.min(f32::MAX));
-        Self { all, size, asked: Cell::new(0), found: Cell::new(None), laid_out: OnceCell::new() }
+        Self { all, size, queries: Cell::new(0), found: Cell::new(None), laid_out: OnceCell::new() }
     }
 
     /// Whether any contact is one that is looked for. Which of them is found first is unspecified: it depends on
@@ -161,11 +161,11 @@ impl<'c, T: AlongAxis> Contacts<'c, T> {
         if self.found.get().is_some_and(|found| holds(&found) == Holds::Yes) {
             return true;
         }
-        let found = match self.all.len() <= FEW || self.asked.get() < SELDOM {
+        let found = match self.all.len() <= FEW || self.queries.get() < SELDOM {
             true => bundles(self.all).find(|it| holds(it) == Holds::Yes),
             false => self.find(holds),
         };
-        self.asked.set(self.asked.get().saturating_add(1));
+        self.queries.set(self.queries.get().saturating_add(1));
         self.found.set(found.map(|found| found.alone()).or(self.found.get()));
         found.is_some()
     }

@@ -67,9 +67,9 @@ fn contacts(numbers: &mut Numbers, count: usize) -> Vec<Touch3> {
 }
 
 #[test]
-fn contacts_laid_out_say_what_they_say_one_by_one() {
+fn contacts_laid_out_agree_with_tests_one_by_one() {
     let mut numbers = Numbers::new(5700);
-    let mut told = [0; 3];
+    let mut outcomes = [0; 3];
     for round in 0..400 {
         let all = contacts(&mut numbers, [20, 150][round % 2]);
         let others = contacts(&mut numbers, [0, 30][round / 2 % 2]);
@@ -83,10 +83,10 @@ fn contacts_laid_out_say_what_they_say_one_by_one() {
             let (few, fewer) = if round % 3 == 0 { (None, None) } else { (Some(&touched), Some(&each)) };
             let found = parts.lies(normal, few, &beside);
             assert_eq!(found, parts.lies(normal, fewer, &each_beside), "{round} {question}");
-            told[found as usize] += 1;
+            outcomes[found as usize] += 1;
         }
     }
-    assert!(told.iter().all(|&count| count > 500), "{told:?}");
+    assert!(outcomes.iter().all(|&count| count > 500), "{outcomes:?}");
 }
 
 /// Among contacts that have nothing to do with a meeting, few are tested: only the first, where all are alike.
@@ -103,9 +103,9 @@ fn what_has_nothing_to_do_with_a_meeting_is_passed_over() {
         // Far above what is touched, and further ahead.
         let corner = DVec3::new(5.0, -9.0, 0.0);
         let parts = Parts { moments: [[corner; 5]; 4], thickness: 0.5, met_at: 0.0 };
-        let ask = || parts.lies(Vec3::X.into(), Some(&touched), &beside);
-        (0..8).for_each(|_| assert_eq!(steps_of(ask), (Lies::Ahead, 4096)));
-        let (lies, steps) = steps_of(ask);
+        let query = || parts.lies(Vec3::X.into(), Some(&touched), &beside);
+        (0..8).for_each(|_| assert_eq!(steps_of(query), (Lies::Ahead, 4096)));
+        let (lies, steps) = steps_of(query);
         assert!(lies == Lies::Ahead && steps <= most, "{steps}");
     }
 }

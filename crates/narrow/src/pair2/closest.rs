@@ -6,7 +6,7 @@ use crate::answer::{Closest2, Measured2, Separation2};
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::polygon::apart::Apart;
-use crate::polygon::measure::{Asked, Near, Probe};
+use crate::polygon::measure::{Near, Probe, Query};
 
 impl Pair2<'_> {
     /// The closest points of shapes that do not overlap; `None` where they do. Cost: as [`overlaps`](Self::overlaps),
@@ -25,10 +25,10 @@ impl Pair2<'_> {
             return self.parts(a, b).closest(f64::INFINITY).ok()?;
         }
         let mut least = Least::within(f64::INFINITY);
-        self.ask_nearest(&mut least, |least, [a, b]| {
+        self.visit_nearest(&mut least, |least, [a, b]| {
             !least.passes_over(self.gap(&a, &b)) && {
                 let found = self.parts(a, b).closest(least.reach());
-                least.hear(found, |found| [found.distance, found.error])
+                least.offer_closest(found, |found| [found.distance, found.error])
             }
         });
         let (found, error) = least.finish().ok()?;
@@ -84,7 +84,7 @@ impl Parts<'_> {
     #[cold]
     #[inline(never)]
     fn look_closer(&self, limit: f64) -> Result<Option<Closest2>, f32> {
-        match self.convex.probe(&Asked { limit, hint: Hint::NONE, points: false }) {
+        match self.convex.probe(&Query { limit, hint: Hint::NONE, points: false }) {
             Probe::Beyond(at_least, _) => Err(at_least),
             Probe::Near(near) => Ok(closest_of(&self.place, near)),
         }

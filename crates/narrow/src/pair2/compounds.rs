@@ -5,7 +5,7 @@ use crate::answer::Manifold2;
 use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;
-use crate::polygon::measure::Asked;
+use crate::polygon::measure::Query;
 use crate::polygon::quick::Bodies;
 use crate::shadow::is_many;
 use crate::whole2::{Wholes2, part_count};
@@ -15,13 +15,13 @@ impl Pair2<'_> {
     /// much; then pairs of parts, two of which have hints of their own from the last frame.
     pub(super) fn contact_of_parts(
         &self,
-        asked: &Asked,
+        query: &Query,
         margin: f32,
         keep: &mut impl FnMut(Manifold2),
     ) -> (Hint, Met) {
         let Bodies { shapes, turns, between } = self.bodies();
         let wholes = Wholes2 { shapes, turns, between };
-        let sought = asked.hint.sought();
+        let sought = query.hint.sought();
         let sought =
             sought.and_then(|(direction, is_due)| Some((direction.truncate().try_normalize()?, is_due)));
         // If none is due, the direction from centre to centre separates more pairs of parts than one that has failed.
@@ -33,27 +33,27 @@ impl Pair2<'_> {
             true => is_due && a.max(b) <= 8 * a.min(b),
             false => is_due || is_many([a, b]),
         };
-        let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
+        let shadow = if is_worth_it { wholes.shadow(from, query.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
             return (Hint::towards(from.extend(0.0)), Err(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
-        let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
-        let (mut kept, mut touch) = (Kept::new(asked.hint), None);
-        let beside_b = || self.around_b(&whole_b, asked.limit);
+        let is_far = |a: &Part, b: &Part| self.gap(a, b) > query.limit;
+        let (mut kept, mut touch) = (Kept::new(query.hint), None);
+        let beside_b = || self.around_b(&whole_b, query.limit);
         for_parts_in(self.shape_a, &self.turn_a, beside_b, |a| {
             let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
             if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
                 return false;
             }
-            let beside_a = || self.around_a(&a, asked.limit);
+            let beside_a = || self.around_a(&a, query.limit);
             for_parts_in(self.shape_b, &self.turn_b, beside_a, |b| {
                 if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
                     return false;
                 }
                 let parts = self.parts(a, b);
-                let asked = Asked { hint: kept.of(parts.place.indices), ..*asked };
-                if let (hint, Ok((overlapping, separation))) = parts.contact(&asked, margin, keep) {
+                let query = Query { hint: kept.of(parts.place.indices), ..*query };
+                if let (hint, Ok((overlapping, separation))) = parts.contact(&query, margin, keep) {
                     touch = Some(touch.unwrap_or(false) || overlapping);
                     kept.offer(parts.place.indices, hint, separation);
                 }
@@ -61,7 +61,7 @@ impl Pair2<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(next.extend(0.0)) };
+        let hint = if touch.is_some() { kept.hint() } else { query.hint.seeking(next.extend(0.0)) };
         (hint, touch.ok_or(0.0))
     }
 }

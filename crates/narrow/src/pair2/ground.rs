@@ -14,7 +14,7 @@ use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::ground2::{Surface, Zone};
 use crate::least::Least;
-use crate::polygon::measure::{Asked, Near, Probe};
+use crate::polygon::measure::{Near, Probe, Query};
 use crate::precision::round_down;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Shape2};
@@ -42,22 +42,22 @@ impl Pair2<'_> {
     }
 
     /// Whether any part overlaps a segment of a run that it sees.
-    pub(super) fn overlaps_seen(&self) -> bool {
+    pub(super) fn overlaps_facing(&self) -> bool {
         self.any_on_ground(true, |parts| parts.convex.verdict().overlapping)
     }
 
     /// Whether the answer is yes for any segment and any part of the other shape, of those whose boxes meet. Two
     /// grounds see each other from all sides.
-    fn any_on_ground(&self, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
-        let only_seen = only_seen && !(self.shape_a.is_ground() && self.shape_b.is_ground());
+    fn any_on_ground(&self, only_facing: bool, mut test: impl FnMut(&Parts) -> bool) -> bool {
+        let only_facing = only_facing && !(self.shape_a.is_ground() && self.shape_b.is_ground());
         let near = |zone: &Zone, bounds: &Aabb2| zone.gap(bounds) <= 0.0;
         let mut among = |side: usize, chain: &Chain, other: Part| {
             let zone = self.zone(side, &other);
             let visit = |segment| {
-                let is_meant = !only_seen || self.is_seen((side, chain), segment, &other);
+                let is_candidate = !only_facing || self.is_facing((side, chain), segment, &other);
                 let mut is_met =
-                    || self.with_segment(side, chain, (segment, other), |parts| ask(&parts)) == Some(true);
-                if is_meant && is_met() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                    || self.with_segment(side, chain, (segment, other), |parts| test(&parts)) == Some(true);
+                if is_candidate && is_met() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             chain.visit_where(|bounds| near(&zone, bounds), visit).is_break()
         };
@@ -79,7 +79,7 @@ impl Pair2<'_> {
     }
 
     /// Whether a part sees a segment's run: the part is in front of the run, or the ground is not one-sided.
-    fn is_seen(&self, (side, chain): (usize, &Chain), segment: u32, part: &Part) -> bool {
+    fn is_facing(&self, (side, chain): (usize, &Chain), segment: u32, part: &Part) -> bool {
         let [chain_at, body_at] =
             if side == 0 { [DVec2::ZERO, self.between] } else { [self.between, DVec2::ZERO] };
         let turn = if side == 0 { &self.turn_a } else { &self.turn_b };
@@ -132,9 +132,9 @@ impl Pair2<'_> {
             limit,
             |bounds| zone.gap(bounds),
             |segment| {
-                let asked = Asked { limit: least.reach(), hint: Hint::NONE, points: false };
+                let query = Query { limit: least.reach(), hint: Hint::NONE, points: false };
                 let found = self.with_segment(side, chain, (segment, other), |parts| {
-                    (parts.place, parts.convex.probe(&asked))
+                    (parts.place, parts.convex.probe(&query))
                 });
                 match found {
                     Some((place, Probe::Near(near))) => {
@@ -152,18 +152,18 @@ impl Pair2<'_> {
         false
     }
 
-    /// Passes a segment of the chain on one side of the pair, and a part of the other, to `ask`.
+    /// Passes a segment of the chain on one side of the pair, and a part of the other, to `run`.
     fn with_segment<R>(
         &self,
         side: usize,
         chain: &Chain,
         (segment, other): (u32, Part),
-        ask: impl FnOnce(Parts) -> R,
+        run: impl FnOnce(Parts) -> R,
     ) -> Option<R> {
         count_step();
         let shape = Shape2::Segment(chain.segment(segment)?);
         let turn = if side == 0 { &self.turn_a } else { &self.turn_b };
-        Some(ask(self.ordered(side, Part::segment(segment, &shape, turn), other)))
+        Some(run(self.ordered(side, Part::segment(segment, &shape, turn), other)))
     }
 
     /// A part of the ground and one of the other body, in the order of A and B.

@@ -5,19 +5,19 @@ use super::part::{Part, for_nearest_parts, for_parts, for_parts_near};
 use crate::among::{Region2, many2};
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polygon::measure::{Asked, Probe};
+use crate::polygon::measure::{Probe, Query};
 use crate::precision::round_down;
 
 impl<'a> Pair2<'a> {
-    /// Calls `ask` for all pairs of parts that may be as near as the nearest so far, until it returns that it has
+    /// Calls `visit` for all pairs of parts that may be as near as the nearest so far, until it returns that it has
     /// enough.
     ///
     /// Parts of a compound of many are visited roughly nearest first. With two such compounds, one close pair is
     /// measured first, and whatever is further apart is left out. With compounds of few parts, all pairs in order.
-    pub(super) fn ask_nearest<P>(
+    pub(super) fn visit_nearest<P>(
         &self,
         least: &mut Least<P>,
-        mut ask: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
+        mut visit: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
     ) {
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         let mut within = least.reach();
@@ -27,14 +27,14 @@ impl<'a> Pair2<'a> {
             [Some(a), None] => {
                 let others = self.around_b(&whole_b, 0.0);
                 return for_nearest_parts(a, &self.turn_a, others, within, |a| {
-                    let is_enough = for_parts(self.shape_b, &self.turn_b, |b| ask(least, [a, b]));
+                    let is_enough = for_parts(self.shape_b, &self.turn_b, |b| visit(least, [a, b]));
                     if is_enough { -1.0 } else { least.reach() }
                 });
             }
             [None, Some(b)] => {
                 let others = self.around_a(&Part::whole(self.shape_a, &self.turn_a), 0.0);
                 return for_nearest_parts(b, &self.turn_b, others, within, |b| {
-                    let is_enough = for_parts(self.shape_a, &self.turn_a, |a| ask(least, [a, b]));
+                    let is_enough = for_parts(self.shape_a, &self.turn_a, |a| visit(least, [a, b]));
                     if is_enough { -1.0 } else { least.reach() }
                 });
             }
@@ -48,7 +48,7 @@ impl<'a> Pair2<'a> {
             }
             let within = within.min(least.reach());
             let beside_a = || self.around_a(&a, within);
-            for_parts_near(self.shape_b, &self.turn_b, beside_a, |b| ask(least, [a, b]))
+            for_parts_near(self.shape_b, &self.turn_b, beside_a, |b| visit(least, [a, b]))
         });
     }
 
@@ -59,8 +59,8 @@ impl<'a> Pair2<'a> {
         let b = Part::nearest(self.shape_b, &self.turn_b, middle_a - self.between);
         let a = Part::nearest(self.shape_a, &self.turn_a, self.between + b.center);
         let b = Part::nearest(self.shape_b, &self.turn_b, a.center - self.between);
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, points: false };
-        match self.parts(a, b).convex.probe(&asked) {
+        let query = Query { limit: f64::INFINITY, hint: Hint::NONE, points: false };
+        match self.parts(a, b).convex.probe(&query) {
             Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
             Probe::Beyond(..) => f64::INFINITY,
         }

@@ -2,7 +2,7 @@
 //! closed form, in the axes of the shape with faces.
 
 use super::Pair3;
-use super::balls::Told;
+use super::balls::ClosedForm;
 use crate::feature::{Feature, FeatureId};
 use crate::precision::Precision;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -63,7 +63,7 @@ impl BallOnFaces<'_> {
     }
 }
 
-impl Told for BallOnFaces<'_> {
+impl ClosedForm for BallOnFaces<'_> {
     #[inline]
     fn pair(&self) -> &Pair3<'_> {
         self.pair

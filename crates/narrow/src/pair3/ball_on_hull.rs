@@ -21,7 +21,7 @@
 
 use super::Pair3;
 use super::ball_on_faces::{BallOnFaces, Nearest};
-use super::balls::{BesideBall, Told};
+use super::balls::{BesideBall, ClosedForm};
 use crate::answer::{Tier, Verdict};
 use crate::feature::Feature;
 use crate::polyhedron::convex::IDENTITY;
@@ -34,7 +34,7 @@ use asunder_geometry::{Basis3, Hull, Shape3};
 const MAX_STEPS: usize = 16;
 
 /// A sphere and a hull with faces, and the sphere's centre in the hull's axes.
-struct Seen<'p> {
+struct BallOnHull<'p> {
     pair: &'p Pair3<'p>,
     beside: BesideBall<'p>,
     hull: &'p Hull,
@@ -49,26 +49,26 @@ impl Pair3<'_> {
     /// limit.
     #[inline]
     pub(super) fn ball_on_hull(&self, limit: f64) -> Option<BallOnFaces<'_>> {
-        let seen = self.ball_by_hull(limit)?;
-        let nearest = seen.with_walk(|walk| {
+        let ball = self.ball_by_hull(limit)?;
+        let nearest = ball.with_walk(|walk| {
             let foremost = walk.foremost()?;
-            match walk.inside(foremost, &seen) {
+            match walk.inside(foremost, &ball) {
                 Some(inside) => inside,
-                None => walk.proved(walk.from(foremost.0)?, foremost, &seen.precision),
+                None => walk.proved(walk.from(foremost.0)?, foremost, &ball.precision),
             }
         });
-        nearest.map(|nearest| seen.told(nearest))
+        nearest.map(|nearest| ball.on_faces(nearest))
     }
 
     /// Whether a sphere and a hull overlap. The nearest feature is proved only where bounds do not suffice.
     #[inline]
     pub(super) fn verdict_on_hull(&self) -> Option<Verdict> {
-        let seen = self.ball_by_hull(0.0)?;
-        let doubt = 2.0 * seen.precision.projection() + 4.0 * seen.precision.planarity;
-        let radii = seen.beside.radius + f64::from(seen.hull.radius());
+        let ball = self.ball_by_hull(0.0)?;
+        let doubt = 2.0 * ball.precision.projection() + 4.0 * ball.precision.planarity;
+        let radii = ball.beside.radius + f64::from(ball.hull.radius());
         let by_bound = |overlapping| Some(Verdict { overlapping, tier: Tier::Bound });
-        seen.with_walk(|walk| {
-            let from_middle = (seen.center - seen.hull.center().as_dvec3()).length();
+        ball.with_walk(|walk| {
+            let from_middle = (ball.center - ball.hull.center().as_dvec3()).length();
             // The inner radius is below zero if the hull's centre is not in the core.
             if from_middle + doubt < radii + walk.solid.inner_radius() {
                 return by_bound(true);
@@ -77,21 +77,21 @@ impl Pair3<'_> {
             if foremost.1 - doubt > radii {
                 return by_bound(false);
             }
-            if let Some(inside) = walk.inside(foremost, &seen) {
-                return inside.map(|nearest| seen.told(nearest).verdict());
+            if let Some(inside) = walk.inside(foremost, &ball) {
+                return inside.map(|nearest| ball.on_faces(nearest).verdict());
             }
             let end = walk.from(foremost.0)?;
             // Any point of the hull is at least as far away as the nearest one.
             if (walk.point - end.0).length() + doubt < radii {
                 return by_bound(true);
             }
-            let nearest = walk.proved(end, foremost, &seen.precision)?;
-            Some(seen.told(nearest).verdict())
+            let nearest = walk.proved(end, foremost, &ball.precision)?;
+            Some(ball.on_faces(nearest).verdict())
         })
     }
 
     #[inline]
-    fn ball_by_hull(&self, limit: f64) -> Option<Seen<'_>> {
+    fn ball_by_hull(&self, limit: f64) -> Option<BallOnHull<'_>> {
         let beside = self.beside_ball()?;
         let Shape3::Hull(hull) = beside.shape else { return None };
         if hull.dimension() < 2 || self.gap_of_spheres() > limit {
@@ -100,20 +100,20 @@ impl Pair3<'_> {
         let basis = beside.pose.basis();
         let (center, planarity) = (basis.turn_back(beside.center), f64::from(Hull::planarity_error(hull)));
         let precision = Precision { planarity, ..beside.precision() };
-        Some(Seen { pair: self, beside, hull, basis, center, precision })
+        Some(BallOnHull { pair: self, beside, hull, basis, center, precision })
     }
 }
 
-impl<'p> Seen<'p> {
+impl<'p> BallOnHull<'p> {
     #[inline]
-    fn with_walk<R>(&self, ask: impl FnOnce(&Walk) -> R) -> R {
+    fn with_walk<R>(&self, run: impl FnOnce(&Walk) -> R) -> R {
         let core = self.beside.shape.core();
         let solid = Solid::new(&core, IDENTITY, DVec3::ZERO, 0.0);
         let (normals, heights) = (core.normals(), core.heights());
-        ask(&Walk { solid: &solid, normals, heights, point: self.center })
+        run(&Walk { solid: &solid, normals, heights, point: self.center })
     }
 
-    fn told(&self, nearest: Nearest) -> BallOnFaces<'p> {
+    fn on_faces(&self, nearest: Nearest) -> BallOnFaces<'p> {
         let BesideBall { shape, is_b, radius, .. } = self.beside;
         let (pair, basis, precision) = (self.pair, self.basis, self.precision);
         BallOnFaces { pair, shape, basis, nearest, radius, is_b, precision }
@@ -140,12 +140,12 @@ struct Walk<'s> {
 impl Walk<'_> {
     /// The nearest place for a point behind all faces of a hull with volume, else `None`. `Some(None)` if the point is
     /// not over its foremost face: left to the general path.
-    fn inside(&self, (face, beyond): (usize, f64), seen: &Seen) -> Option<Option<Nearest>> {
-        if seen.hull.dimension() < 3 || beyond > 0.0 {
+    fn inside(&self, (face, beyond): (usize, f64), ball: &BallOnHull) -> Option<Option<Nearest>> {
+        if ball.hull.dimension() < 3 || beyond > 0.0 {
             return None;
         }
         let is_over = self.side_beyond(face).is_none();
-        Some(is_over.then(|| self.over(face, beyond, 4.0 * seen.precision.planarity)))
+        Some(is_over.then(|| self.over(face, beyond, 4.0 * ball.precision.planarity)))
     }
 
     /// The nearest place, from the point and feature where a walk ended; `None` if that is not proved.
@@ -296,7 +296,7 @@ impl Walk<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::{Counts, any_ball, pose_and_place, says_as_a_part, touch_exactly};
+    use super::super::balls::tests::{Counts, agrees_with_a_part, any_ball, pose_and_place, touch_exactly};
     use super::*;
     use crate::numbers::Numbers;
     use asunder_geometry::glam::{Quat, Vec3};
@@ -321,7 +321,7 @@ mod tests {
     /// The general path, which parts of compounds take, gives the same answers: for hulls of few corners and of many,
     /// thin ones, flat ones, rounded ones, and prisms, whose faces are flat up to rounding.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(80);
         let mut counts = Counts::default();
         for i in 0..4000_u32 {
@@ -342,7 +342,7 @@ mod tests {
             let ball = any_ball(&mut numbers);
             let (here, there) = pose_and_place(&mut numbers, i, 0.5);
             let there = Pose3::at(there).unwrap();
-            says_as_a_part((&ball, &there), (&shape, &here), &mut counts);
+            agrees_with_a_part((&ball, &there), (&shape, &here), &mut counts);
         }
         assert!(counts.near > 2000 && counts.apart > 2000, "{counts:?}");
     }
@@ -408,7 +408,7 @@ mod tests {
         ] {
             let (here, there) = (Pose3::new(Vec3::ZERO, turn).unwrap(), Pose3::at(center).unwrap());
             assert_eq!(Pair3::new(shape, &here, &ball(radius), &there).overlaps(), overlapping, "{center:?}");
-            says_as_a_part((&ball(radius), &there), (shape, &here), &mut Counts::default());
+            agrees_with_a_part((&ball(radius), &there), (shape, &here), &mut Counts::default());
         }
     }
 }

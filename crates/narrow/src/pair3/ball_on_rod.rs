@@ -12,7 +12,7 @@
 //! there and 40 here (AMD EPYC, Zen 4, 2 virtual cores, 2026-11-26).
 
 use super::Pair3;
-use super::balls::{BesideBall, Told};
+use super::balls::{BesideBall, ClosedForm};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::slender::{Slender, across};
 use crate::precision::Precision;
@@ -69,7 +69,7 @@ impl BallOnRod<'_> {
     }
 }
 
-impl Told for BallOnRod<'_> {
+impl ClosedForm for BallOnRod<'_> {
     #[inline]
     fn pair(&self) -> &Pair3<'_> {
         self.pair
@@ -107,7 +107,7 @@ impl Told for BallOnRod<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::{Counts, any_ball, pose_and_place, says_as_a_part};
+    use super::super::balls::tests::{Counts, agrees_with_a_part, any_ball, pose_and_place};
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
@@ -121,9 +121,9 @@ mod tests {
         for way in [DVec3::new(3.0, 0.5, 4.0), DVec3::new(3.0, 6.0, 0.0), DVec3::new(0.0, -5.0, 4.0)] {
             let verdict = |longer: f64| {
                 let there = Pose3::at(way * DVec3::new(longer, 1.0, longer)).unwrap();
-                let told = Pair3::new(&rod, &Pose3::IDENTITY, &ball, &there).verdict();
-                assert_eq!(told, Pair3::new(&ball, &there, &rod, &Pose3::IDENTITY).verdict());
-                told
+                let found = Pair3::new(&rod, &Pose3::IDENTITY, &ball, &there).verdict();
+                assert_eq!(found, Pair3::new(&ball, &there, &rod, &Pose3::IDENTITY).verdict());
+                found
             };
             assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: Tier::Exact }, "{way}");
             assert_eq!(
@@ -150,7 +150,7 @@ mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(77);
         let mut counts = Counts::default();
         for i in 0..4000_u32 {
@@ -163,7 +163,7 @@ mod tests {
             let ball = any_ball(&mut numbers);
             let (here, there) = pose_and_place(&mut numbers, i, 0.3);
             let there = Pose3::at(there).unwrap();
-            says_as_a_part((&ball, &there), (&rod, &here), &mut counts);
+            agrees_with_a_part((&ball, &there), (&rod, &here), &mut counts);
         }
         assert!(counts.near > 1500 && counts.apart > 3000, "{counts:?}");
     }

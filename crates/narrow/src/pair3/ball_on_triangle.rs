@@ -70,7 +70,7 @@ fn feature_on(edge: usize, place: f64) -> Feature {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::{Counts, any_ball, pose_and_place, says_as_a_part, touch_exactly};
+    use super::super::balls::tests::{Counts, agrees_with_a_part, any_ball, pose_and_place, touch_exactly};
     use super::*;
     use crate::numbers::Numbers;
     use asunder_geometry::glam::Vec3;
@@ -108,7 +108,7 @@ mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers; also for needles, which are left to it.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(78);
         let mut counts = Counts::default();
         for i in 0..4000_u32 {
@@ -120,7 +120,7 @@ mod tests {
             let ball = any_ball(&mut numbers);
             let (here, there) = pose_and_place(&mut numbers, i, 0.3);
             let there = Pose3::at(there).unwrap();
-            says_as_a_part((&ball, &there), (&shape, &here), &mut counts);
+            agrees_with_a_part((&ball, &there), (&shape, &here), &mut counts);
         }
         assert!(counts.near > 1500 && counts.apart > 3000, "{counts:?}");
     }

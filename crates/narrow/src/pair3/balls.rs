@@ -10,7 +10,8 @@
 //! points of two segments: a distance takes 325 ns there and 10 here (AMD EPYC, Zen 4, 2026-11-22).
 //!
 //! A sphere and a cuboid (`ball`), a half-space (`on_plane`), a capsule (`ball_on_rod`), a triangle
-//! (`ball_on_triangle`) or a hull (`ball_on_hull`), and two capsules (`rods`), are answered in the same way: [`Told`].
+//! (`ball_on_triangle`) or a hull (`ball_on_hull`), and two capsules (`rods`), are answered in the same way:
+//! [`ClosedForm`].
 
 use super::{IDENTITY, Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
@@ -67,7 +68,7 @@ impl Pair3<'_> {
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.within(limit)))
             .or_else(|| pair.ball_on_hull(limit).map(|ball| ball.within(limit)))
             .or_else(|| pair.rods().map(|rods| rods.within(limit)))
-            .or_else(|| pair.ball().map(|ball| ball.seen().within(limit)))
+            .or_else(|| pair.ball().map(|ball| ball.in_cuboid_axes().within(limit)))
     }
 
     #[inline]
@@ -79,7 +80,7 @@ impl Pair3<'_> {
             .or_else(|| pair.ball_on_triangle().map(|ball| ball.distance()))
             .or_else(|| pair.ball_on_hull(f64::INFINITY).map(|ball| ball.distance()))
             .or_else(|| pair.rods().map(|rods| rods.distance()))
-            .or_else(|| pair.ball().map(|ball| ball.seen().distance()))
+            .or_else(|| pair.ball().map(|ball| ball.in_cuboid_axes().distance()))
     }
 
     #[inline]
@@ -149,9 +150,9 @@ impl BesideBall<'_> {
 }
 
 /// A separation in closed form, and all answers that follow from it.
-pub(super) trait Told {
+pub(super) trait ClosedForm {
     fn pair(&self) -> &Pair3<'_>;
-    /// In metres, off by less than a projection of [`Told::precision`].
+    /// In metres, off by less than a projection of [`ClosedForm::precision`].
     fn separation(&self) -> f64;
     fn precision(&self) -> &Precision;
     /// By how much the separation may be off beyond that, in metres.
@@ -252,7 +253,7 @@ pub(super) trait Told {
     }
 }
 
-impl Told for Balls<'_> {
+impl ClosedForm for Balls<'_> {
     #[inline]
     fn pair(&self) -> &Pair3<'_> {
         self.pair
@@ -309,7 +310,7 @@ pub(super) mod tests {
 
     /// Checks that a pair gives the answers that the general path gives, with anchors within `near` of each other, as a
     /// share of a metre plus their distance from the bodies. Returns whether the pair is near enough for a point.
-    fn says_as(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
+    fn agrees_with(whole: &Pair3<'_>, general: &Pair3<'_>, near: f32) -> bool {
         assert_eq!(whole.overlaps(), general.overlaps());
         let found = [whole, general].map(|pair| pair.separation(f32::INFINITY));
         let [Separation3::Measured(one), Separation3::Measured(other)] = found else { panic!("no limit") };
@@ -327,9 +328,9 @@ pub(super) mod tests {
         if let [Some(one), Some(other)] = closest {
             assert!((one.distance - other.distance).abs() <= one.error + other.error);
         }
-        let told = [whole, general].map(|pair| pair.manifold(0.1));
-        let [Some(one), Some(other)] = told else {
-            assert_eq!(told.map(|told| told.is_none()), [true; 2]);
+        let manifolds = [whole, general].map(|pair| pair.manifold(0.1));
+        let [Some(one), Some(other)] = manifolds else {
+            assert_eq!(manifolds.map(|manifold| manifold.is_none()), [true; 2]);
             return false;
         };
         assert_eq!(one.points.len(), other.points.len());
@@ -371,7 +372,7 @@ pub(super) mod tests {
     }
 
     /// Checks that a shape beside another gives the same answers as that shape as a part of a compound, in both orders.
-    pub(in crate::pair3) fn says_as_a_part(
+    pub(in crate::pair3) fn agrees_with_a_part(
         (body, there): (&Shape3, &Pose3),
         (other, here): (&Shape3, &Pose3),
         counts: &mut Counts,
@@ -382,7 +383,7 @@ pub(super) mod tests {
                 true => Pair3::new(body, there, other, here),
                 false => Pair3::new(other, here, body, there),
             };
-            let is_near = says_as(&pair(body), &pair(&part), 1e-6);
+            let is_near = agrees_with(&pair(body), &pair(&part), 1e-6);
             *(if is_near { &mut counts.near } else { &mut counts.apart }) += 1;
         }
     }
@@ -392,9 +393,9 @@ pub(super) mod tests {
     pub(in crate::pair3) fn touch_exactly([shape, other]: [&Shape3; 2], place: DVec3, way: DVec3) {
         let verdict = |longer: f64| {
             let there = Pose3::at(place + way * longer).unwrap();
-            let told = Pair3::new(shape, &Pose3::IDENTITY, other, &there).verdict();
-            assert_eq!(told, Pair3::new(other, &there, shape, &Pose3::IDENTITY).verdict(), "{place}");
-            told
+            let found = Pair3::new(shape, &Pose3::IDENTITY, other, &there).verdict();
+            assert_eq!(found, Pair3::new(other, &there, shape, &Pose3::IDENTITY).verdict(), "{place}");
+            found
         };
         let (exact, by_bound) = (Tier::Exact, Tier::Bound);
         assert_eq!(verdict(1.0), Verdict { overlapping: true, tier: exact }, "{place}");
@@ -435,7 +436,7 @@ pub(super) mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers.
     #[test]
-    fn parts_of_compounds_say_the_same() {
+    fn parts_of_compounds_have_the_same_answers() {
         let (mut near, mut apart) = (0, 0);
         for i in 0..2000_u32 {
             let number = |salt: u32| f64::from((i * 7919 + salt * 104_729) % 1000) / 500.0 - 1.0;
@@ -446,7 +447,7 @@ pub(super) mod tests {
             let there = Pose3::at(there + DVec3::X * far).unwrap();
             let part = Compound3::new([(Pose3::IDENTITY, a.clone())]).unwrap().into();
             let (whole, parts) = (Pair3::new(&a, &here, &b, &there), Pair3::new(&part, &here, &b, &there));
-            match says_as(&whole, &parts, 2.5e-6) {
+            match agrees_with(&whole, &parts, 2.5e-6) {
                 true => near += 1,
                 false => apart += 1,
             }

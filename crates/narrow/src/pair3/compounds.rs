@@ -5,7 +5,7 @@ use super::{Pair3, Part};
 use crate::batch::Met;
 use crate::feature::Hint;
 use crate::kept::Kept;
-use crate::polyhedron::convex::Asked;
+use crate::polyhedron::convex::Query;
 use crate::room::Room;
 use crate::shadow::is_many;
 use crate::whole3::{Wholes3, part_count};
@@ -15,7 +15,7 @@ impl Pair3<'_> {
     /// much; then pairs of parts, two of which have hints of their own from the last frame.
     pub(super) fn contact_of_parts(
         &self,
-        asked: Asked,
+        query: Query,
         margin: f32,
         manifolds: &mut impl Room,
     ) -> (Hint, Met) {
@@ -25,7 +25,7 @@ impl Pair3<'_> {
             bases: [&bases[0], &bases[1]],
             between: self.between,
         };
-        let sought = asked.hint.sought();
+        let sought = query.hint.sought();
         let sought =
             sought.and_then(|(direction, is_due)| Some((bases[0].turn(direction).try_normalize()?, is_due)));
         // If none is due, the direction from centre to centre separates more pairs of parts than one that has failed.
@@ -37,27 +37,27 @@ impl Pair3<'_> {
             true => is_due && a.max(b) <= 8 * a.min(b),
             false => is_due || is_many([a, b]),
         };
-        let shadow = if is_worth_it { wholes.shadow(from, asked.limit) } else { None };
+        let shadow = if is_worth_it { wholes.shadow(from, query.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
             return (Hint::towards(bases[0].turn_back(from)), Err(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &bases[1]);
-        let is_far = |a: &Part, b: &Part| self.gap(a, b) > asked.limit;
-        let (mut kept, mut touch) = (Kept::new(asked.hint), None);
-        let beside_b = || self.around_b(&whole_b, asked.limit);
+        let is_far = |a: &Part, b: &Part| self.gap(a, b) > query.limit;
+        let (mut kept, mut touch) = (Kept::new(query.hint), None);
+        let beside_b = || self.around_b(&whole_b, query.limit);
         for_parts_in(self.shape_a, &bases[0], beside_b, |a| {
             let shadow = shadow.as_ref().map(|(shadow, _)| shadow);
             if shadow.is_some_and(|shadow| shadow.parts_from_whole(a.index)) || is_far(&a, &whole_b) {
                 return false;
             }
-            let beside_a = || self.around_a(&a, asked.limit);
+            let beside_a = || self.around_a(&a, query.limit);
             for_parts_in(self.shape_b, &bases[1], beside_a, |b| {
                 if shadow.is_some_and(|shadow| shadow.parts(a.index, b.index)) || is_far(&a, &b) {
                     return false;
                 }
                 let parts = self.parts(&bases, a, b);
-                let asked = Asked { hint: kept.of(parts.indices), ..asked };
-                if let (hint, Ok(found)) = parts.contact(asked, margin, manifolds) {
+                let query = Query { hint: kept.of(parts.indices), ..query };
+                if let (hint, Ok(found)) = parts.contact(query, margin, manifolds) {
                     touch = Some(touch.unwrap_or(false) || found.overlapping);
                     kept.offer(parts.indices, hint, found.separation);
                 }
@@ -65,7 +65,7 @@ impl Pair3<'_> {
             })
         });
         let next = shadow.map_or(from, |(_, next)| next);
-        let hint = if touch.is_some() { kept.hint() } else { asked.hint.seeking(bases[0].turn_back(next)) };
+        let hint = if touch.is_some() { kept.hint() } else { query.hint.seeking(bases[0].turn_back(next)) };
         (hint, touch.ok_or(0.0))
     }
 }

@@ -5,21 +5,21 @@ use super::part::{Part, for_nearest_parts, for_parts, for_parts_near};
 use crate::among::{Region3, many3};
 use crate::feature::Hint;
 use crate::least::Least;
-use crate::polyhedron::convex::{Asked, Probe, Wanted};
+use crate::polyhedron::convex::{Probe, Query, Wanted};
 use crate::precision::round_down;
 use asunder_geometry::Basis3;
 
 impl<'a> Pair3<'a> {
-    /// Calls `ask` for all pairs of parts that may be as near as the nearest so far, until it returns that it has
+    /// Calls `visit` for all pairs of parts that may be as near as the nearest so far, until it returns that it has
     /// enough.
     ///
     /// Parts of a compound of many are visited roughly nearest first. With two such compounds, one close pair is
     /// measured first, and whatever is further apart is left out. With compounds of few parts, all pairs in order.
-    pub(super) fn ask_nearest<P>(
+    pub(super) fn visit_nearest<P>(
         &self,
         bases: &[Basis3; 2],
         least: &mut Least<P>,
-        mut ask: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
+        mut visit: impl FnMut(&mut Least<P>, [Part<'a>; 2]) -> bool,
     ) {
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let mut within = least.reach();
@@ -29,14 +29,14 @@ impl<'a> Pair3<'a> {
             [Some(a), None] => {
                 let others = self.around_b(&whole_b, 0.0);
                 return for_nearest_parts(a, &bases[0], others, within, |a| {
-                    let is_enough = for_parts(self.shape_b, &bases[1], |b| ask(least, [a, b]));
+                    let is_enough = for_parts(self.shape_b, &bases[1], |b| visit(least, [a, b]));
                     if is_enough { -1.0 } else { least.reach() }
                 });
             }
             [None, Some(b)] => {
                 let others = self.around_a(&Part::whole(self.shape_a, &bases[0]), 0.0);
                 return for_nearest_parts(b, &bases[1], others, within, |b| {
-                    let is_enough = for_parts(self.shape_a, &bases[0], |a| ask(least, [a, b]));
+                    let is_enough = for_parts(self.shape_a, &bases[0], |a| visit(least, [a, b]));
                     if is_enough { -1.0 } else { least.reach() }
                 });
             }
@@ -50,7 +50,7 @@ impl<'a> Pair3<'a> {
             }
             let within = within.min(least.reach());
             let beside_a = || self.around_a(&a, within);
-            for_parts_near(self.shape_b, &bases[1], beside_a, |b| ask(least, [a, b]))
+            for_parts_near(self.shape_b, &bases[1], beside_a, |b| visit(least, [a, b]))
         });
     }
 
@@ -61,8 +61,8 @@ impl<'a> Pair3<'a> {
         let b = Part::nearest(self.shape_b, &bases[1], middle_a - self.between);
         let a = Part::nearest(self.shape_a, &bases[0], self.between + b.center);
         let b = Part::nearest(self.shape_b, &bases[1], a.center - self.between);
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Number };
-        match self.parts(bases, a, b).convex.probe(asked) {
+        let query = Query { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Number };
+        match self.parts(bases, a, b).convex.probe(query) {
             Probe::Near(near) => (f64::from(near.separation) + f64::from(near.error)).max(0.0),
             Probe::Beyond(..) => f64::INFINITY,
         }

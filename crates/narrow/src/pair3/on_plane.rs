@@ -11,7 +11,7 @@
 //! manifold takes 330 ns there and 60 here, for a cuboid 340 and 260, its distance 110 and 40 (AMD EPYC, Zen 4, 2
 //! virtual cores, 2026-11-26).
 
-use super::balls::Told;
+use super::balls::ClosedForm;
 use super::{IDENTITY, Pair3, reach_of};
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
@@ -83,7 +83,7 @@ impl OnPlane<'_> {
     }
 }
 
-impl Told for OnPlane<'_> {
+impl ClosedForm for OnPlane<'_> {
     #[inline]
     fn pair(&self) -> &Pair3<'_> {
         self.pair
@@ -138,7 +138,7 @@ impl Told for OnPlane<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::{Counts, any_turn, says_as_a_part};
+    use super::super::balls::tests::{Counts, agrees_with_a_part, any_turn};
     use super::*;
     use crate::answer::{Tier, Verdict};
     use crate::numbers::Numbers;
@@ -150,9 +150,9 @@ mod tests {
         let floor: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();
         let verdict = |y: f64| {
             let at = Pose3::at([5.0, y, -1.0]).unwrap();
-            let told = Pair3::new(&ball, &at, &floor, &Pose3::IDENTITY).verdict();
-            assert_eq!(told, Pair3::new(&floor, &Pose3::IDENTITY, &ball, &at).verdict());
-            told
+            let found = Pair3::new(&ball, &at, &floor, &Pose3::IDENTITY).verdict();
+            assert_eq!(found, Pair3::new(&floor, &Pose3::IDENTITY, &ball, &at).verdict());
+            found
         };
         assert_eq!(verdict(2.0), Verdict { overlapping: true, tier: Tier::Exact });
         assert_eq!(verdict(2.0_f64.next_up()), Verdict { overlapping: false, tier: Tier::Exact });
@@ -182,7 +182,7 @@ mod tests {
 
     /// The general path, which parts of compounds take, gives the same answers.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(99);
         let mut counts = Counts::default();
         for i in 0..6000 {
@@ -195,7 +195,7 @@ mod tests {
             let there = Pose3::new(there, turns[1]).unwrap();
             let Some(body) = shape(i % 11, &mut numbers) else { continue };
             let floor = Shape3::from(floor);
-            says_as_a_part((&body, &there), (&floor, &here), &mut counts);
+            agrees_with_a_part((&body, &there), (&floor, &here), &mut counts);
         }
         assert!(counts.near > 3000 && counts.apart > 2000, "{counts:?}");
     }
@@ -206,13 +206,13 @@ mod tests {
         let cube: Shape3 = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().into();
         let floor: Shape3 = HalfSpace::new(Vec3::Y).unwrap().into();
         let at = Pose3::at([1e6, 0.49, 3.0]).unwrap();
-        let told = Pair3::new(&cube, &at, &floor, &Pose3::IDENTITY).manifold(0.0).unwrap();
-        assert_eq!((told.normal, told.points.len()), (Vec3::NEG_Y, 4));
-        for point in &told.points {
+        let manifold = Pair3::new(&cube, &at, &floor, &Pose3::IDENTITY).manifold(0.0).unwrap();
+        assert_eq!((manifold.normal, manifold.points.len()), (Vec3::NEG_Y, 4));
+        for point in &manifold.points {
             assert_eq!(point.anchor_a.abs(), Vec3::splat(0.5));
             assert!((point.separation + 0.01).abs() < 1e-6 && point.anchor_b.y.abs() < 1e-6);
         }
         let other = Pair3::new(&floor, &Pose3::IDENTITY, &cube, &at).manifold(0.0).unwrap();
-        assert_eq!((other.normal, other.separation), (Vec3::Y, told.separation));
+        assert_eq!((other.normal, other.separation), (Vec3::Y, manifold.separation));
     }
 }

@@ -5,7 +5,7 @@ use crate::answer::{Closest3, ContactPoint3};
 use crate::batch::beyond;
 use crate::exact::Site3;
 use crate::feature::Hint;
-use crate::polyhedron::convex::{Asked, Convex, IDENTITY, Near, Probe, Wanted};
+use crate::polyhedron::convex::{Convex, IDENTITY, Near, Probe, Query, Wanted};
 use crate::polyhedron::gap::{Apart, Gap};
 use crate::polyhedron::manifold::Touch;
 use crate::polyhedron::sat::{AxisOf, hint_with};
@@ -87,15 +87,15 @@ impl Parts<'_> {
     #[inline(always)]
     pub(super) fn contact(
         &self,
-        asked: Asked,
+        query: Query,
         margin: f32,
         manifolds: &mut impl Room,
     ) -> (Hint, Result<Found, f32>) {
         let mut touch = Touch::none();
         let is_near = |near: &Near| near.verdict.overlapping || near.separation <= margin;
-        let accept = |near: &Near| asked.wanted == Wanted::Points && is_near(near);
-        match self.convex.contact(asked, accept, &mut touch) {
-            (Probe::Beyond(at_least, hint), _) => (hint, Err(beyond(at_least.into(), asked.limit))),
+        let accept = |near: &Near| query.wanted == Wanted::Points && is_near(near);
+        match self.convex.contact(query, accept, &mut touch) {
+            (Probe::Beyond(at_least, hint), _) => (hint, Err(beyond(at_least.into(), query.limit))),
             (Probe::Near(near), has_points) => {
                 let found = Found { overlapping: near.verdict.overlapping, separation: near.separation };
                 let hint = if has_points { self.add_manifold(&near, &touch, manifolds) } else { near.hint };
@@ -136,7 +136,7 @@ impl Parts<'_> {
 
     /// The same by a full probe, where the gap search is unclear.
     pub(super) fn look_closer(&self, limit: f64) -> Result<Option<Closest3>, f32> {
-        match self.convex.probe(Asked { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
+        match self.convex.probe(Query { limit, hint: Hint::NONE, wanted: Wanted::Closest }) {
             Probe::Beyond(at_least, _) => Err(at_least),
             Probe::Near(Near { separation, error, normal, closest, .. }) => {
                 Ok(closest.map(|points| self.closest_by(&Apart { separation, error, normal, points })))

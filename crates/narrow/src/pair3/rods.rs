@@ -11,7 +11,7 @@
 //! there and 170 here. Yes or no, and manifolds, take as long as there; they are answered here so that every query
 //! gives the same number (Intel Xeon, Ice Lake, 2 virtual cores, 2026-11-26).
 
-use super::balls::Told;
+use super::balls::ClosedForm;
 use super::{Pair3, reach_of};
 use crate::answer::{ContactPoint3, Manifold3};
 use crate::feature::{Feature, FeatureId};
@@ -58,7 +58,7 @@ impl Pair3<'_> {
     }
 }
 
-impl Told for Rods<'_> {
+impl ClosedForm for Rods<'_> {
     #[inline]
     fn pair(&self) -> &Pair3<'_> {
         self.pair
@@ -112,7 +112,7 @@ impl Rods<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::balls::tests::{Counts, pose_and_place, says_as_a_part, touch_exactly};
+    use super::super::balls::tests::{Counts, agrees_with_a_part, pose_and_place, touch_exactly};
     use super::*;
     use crate::numbers::Numbers;
     use asunder_geometry::glam::Quat;
@@ -149,7 +149,7 @@ mod tests {
     /// The general path, which parts of compounds take, gives the same answers: for rods in any pose, crossed, and side
     /// by side.
     #[test]
-    fn a_part_of_a_compound_says_the_same() {
+    fn a_part_of_a_compound_has_the_same_answers() {
         let mut numbers = Numbers::new(79);
         let mut counts = Counts::default();
         for i in 0..6000_u32 {
@@ -166,7 +166,7 @@ mod tests {
             // Side by side, or in any pose.
             let turn = if along.is_some() { here.rotation() } else { Quat::IDENTITY };
             let there = Pose3::new(there, turn).unwrap();
-            says_as_a_part((&a, &there), (&b, &here), &mut counts);
+            agrees_with_a_part((&a, &there), (&b, &here), &mut counts);
         }
         assert!(counts.near > 1000 && counts.apart > 3000, "{counts:?}");
     }

@@ -260,8 +260,8 @@ impl Grounded {
         let start = to.len();
         for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
             let loss = self.loss(of, grips, moved);
-            let is_told = loss <= f64::from(self.most_loss);
-            if !is_told {
+            let is_accurate = loss <= f64::from(self.most_loss);
+            if !is_accurate {
                 to.truncate(start);
                 return false;
             }
@@ -294,14 +294,15 @@ impl Grounded {
         // are.
         let least = of.points.iter().fold(f32::INFINITY, |least, point| least.min(point.separation));
         let beside = f64::from(least) - f64::from(of.separation);
-        let untold = if of.points.is_full() || beside > 0.0 { lean * drift + beside.max(0.0) } else { 0.0 };
+        let unreported =
+            if of.points.is_full() || beside > 0.0 { lean * drift + beside.max(0.0) } else { 0.0 };
         let left = f64::from(self.cost) * drift;
         // The curvature of a ball.
         let round =
             if self.is_ball { around(f64::from(self.arm) + f64::from(of.separation), drift) } else { 0.0 };
         let rounding = f64::from(f32::EPSILON) * (f64::from(of.separation.abs()) + steep * drift);
         let turned = spin * (3.0 * f64::from(self.arm) + 4.0 * steep * steep * drift);
-        untold + left + round + rounding + turned
+        unreported + left + round + rounding + turned
     }
 
     fn fill(&self, of: &Manifold3, grips: &[Grip; 4], moved: &Moved, to: &mut Manifold3) {

@@ -16,7 +16,7 @@
 
 use super::half_plane::Line;
 use super::manifold::{Point, Touch, over_edge};
-use super::measure::{Asked, Measure, Near, Probe};
+use super::measure::{Measure, Near, Probe, Query};
 use super::outline::{Outline, Turn};
 use super::sat::{Outcome, doubt, separating_axes};
 use super::search::beside;
@@ -41,7 +41,7 @@ pub(crate) struct Convex<'a> {
 }
 
 /// The answer of a kernel in closed form.
-pub(super) struct Told {
+pub(super) struct ClosedForm {
     pub(super) separation: f64,
     /// Unit axis from A to B.
     pub(super) normal: DVec2,
@@ -69,111 +69,120 @@ impl<'a> Convex<'a> {
 
     /// The separation where it is at most the limit; the hinted axis is tried first.
     #[inline]
-    pub(crate) fn probe(&self, asked: &Asked) -> Probe {
+    pub(crate) fn probe(&self, query: &Query) -> Probe {
         if self.has_line() {
-            return self.probe_lines(asked);
+            return self.probe_lines(query);
         }
         self.with_outlines(|a, b| {
             if a.edge_count() + b.edge_count() > 0 {
-                return self.probe_outlines(a, b, asked);
+                return self.probe_outlines(a, b, query);
             }
-            self.told(&self.told_points(a, b), asked, |told| {
+            self.probe_closed_form(&self.closed_form_of_points(a, b), query, |result| {
                 let (on_a, on_b) = (a.point(0), b.point(0));
-                let separation = told.normal.dot(on_b - on_a);
+                let separation = result.normal.dot(on_b - on_a);
                 let feature = FeatureId::new(Feature::Vertex(0), Feature::Vertex(0));
-                let point =
-                    Point { separation, on_a, on_b, feature }.on_surfaces([a.radius, b.radius], told.normal);
-                Some(Touch::of_point(told.normal, point, None))
+                let point = Point { separation, on_a, on_b, feature }
+                    .on_surfaces([a.radius, b.radius], result.normal);
+                Some(Touch::of_point(result.normal, point, None))
             })
         })
     }
 
     /// For shapes of which at least one is a half-plane.
-    fn probe_lines(&self, asked: &Asked) -> Probe {
+    fn probe_lines(&self, query: &Query) -> Probe {
         match self.lines() {
-            [Some(a), Some(b)] => self.told(&self.told_half_planes(a, b), asked, |told| {
-                let ([on_a, on_b], separation) = (a.points_with(&b), f64::from(told.separation as f32));
-                let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
-                let point = Point { separation, on_a, on_b, feature };
-                (separation > f64::NEG_INFINITY).then(|| Touch::of_point(told.normal, point, None))
-            }),
+            [Some(a), Some(b)] => {
+                self.probe_closed_form(&self.closed_form_of_half_planes(a, b), query, |result| {
+                    let ([on_a, on_b], separation) = (a.points_with(&b), f64::from(result.separation as f32));
+                    let feature = FeatureId::new(Feature::Edge(0), Feature::Edge(0));
+                    let point = Point { separation, on_a, on_b, feature };
+                    (separation > f64::NEG_INFINITY).then(|| Touch::of_point(result.normal, point, None))
+                })
+            }
             [Some(line), _] | [_, Some(line)] => self.with_outlines(|a, b| {
                 let core = if line.is_b { a } else { b };
-                let told = self.told_half_plane(line, core);
-                self.told(&told, asked, |_| Some(line.touch(core, asked.limit, self.measure.preference)))
+                let result = self.closed_form_of_half_plane(line, core);
+                self.probe_closed_form(&result, query, |_| {
+                    Some(line.touch(core, query.limit, self.measure.preference))
+                })
             }),
             [None, None] => Probe::Beyond(0.0, Hint::NONE),
         }
     }
 
-    pub(super) fn told_half_planes(&self, a: Line, b: Line) -> Told {
+    pub(super) fn closed_form_of_half_planes(&self, a: Line, b: Line) -> ClosedForm {
         let separation = a.separation_from(&b, || exact::are_opposed2([&self.sites[0], &self.sites[1]]));
-        Told { separation, normal: a.axis(), closest: a.points_with(&b) }
+        ClosedForm { separation, normal: a.axis(), closest: a.points_with(&b) }
     }
 
-    pub(super) fn told_half_plane(&self, line: Line, core: &Outline) -> Told {
+    pub(super) fn closed_form_of_half_plane(&self, line: Line, core: &Outline) -> ClosedForm {
         let (vertex, height) = line.lowest(core);
         let vertex = core.point(vertex);
         let on_shape = vertex - line.normal * self.measure.radii;
         let on_line = vertex - line.normal * height;
         let closest = if line.is_b { [on_shape, on_line] } else { [on_line, on_shape] };
-        Told { separation: height - self.measure.radii, normal: line.axis(), closest }
+        ClosedForm { separation: height - self.measure.radii, normal: line.axis(), closest }
     }
 
-    pub(super) fn told_points(&self, a: &Outline, b: &Outline) -> Told {
+    pub(super) fn closed_form_of_points(&self, a: &Outline, b: &Outline) -> ClosedForm {
         let (on_a, on_b) = (a.point(0), b.point(0));
         let distance = (on_b - on_a).length();
         let normal = if distance > 0.0 { (on_b - on_a) / distance } else { DVec2::Y };
         let separation = distance - self.measure.radii;
         let closest = self.measure.on_surfaces([on_a, on_b], normal);
-        Told { separation, normal, closest }
+        ClosedForm { separation, normal, closest }
     }
 
     /// The answer that follows from a closed form, within the limit.
-    fn told(&self, told: &Told, asked: &Asked, touch: impl FnOnce(&Told) -> Option<Touch>) -> Probe {
+    fn probe_closed_form(
+        &self,
+        result: &ClosedForm,
+        query: &Query,
+        touch: impl FnOnce(&ClosedForm) -> Option<Touch>,
+    ) -> Probe {
         let precision = self.measure.precision;
-        let separation = told.separation;
-        if separation > asked.limit + precision.projection() {
+        let separation = result.separation;
+        if separation > query.limit + precision.projection() {
             return Probe::Beyond(at_least(separation, &precision), Hint::NONE);
         }
-        let verdict = self.told_verdict(told);
+        let verdict = self.closed_form_verdict(result);
         // Half-planes that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
             error: if is_endless { 0.0 } else { precision.of_distance(separation, 0.0) },
-            normal: told.normal,
-            closest: (!verdict.overlapping).then_some(told.closest),
+            normal: result.normal,
+            closest: (!verdict.overlapping).then_some(result.closest),
             hint: Hint::NONE,
-            touch: if asked.points { touch(told) } else { None },
+            touch: if query.points { touch(result) } else { None },
         })
     }
 
     /// Axes first; the decision next; then the number that agrees with it.
-    fn probe_outlines(&self, a: &Outline, b: &Outline, asked: &Asked) -> Probe {
+    fn probe_outlines(&self, a: &Outline, b: &Outline, query: &Query) -> Probe {
         let measure = &self.measure;
-        let wanted = measure.wanted(asked, self.towards_b());
+        let wanted = measure.wanted(query, self.towards_b());
         let outcome = separating_axes(a, b, &wanted);
-        if let Some(probe) = measure.at_once([a, b], asked, &outcome) {
+        if let Some(probe) = measure.at_once([a, b], query, &outcome) {
             return probe;
         }
         match outcome {
             Outcome::Beyond(separation, hint) => {
                 Probe::Beyond(at_least(separation - measure.radii, &measure.precision), hint)
             }
-            Outcome::Gap(separation, normal) => self.gap([a, b], asked, (separation, normal), wanted.band),
+            Outcome::Gap(separation, normal) => self.gap([a, b], query, (separation, normal), wanted.band),
             Outcome::Within(axes) => {
                 let best = axes.best();
                 let looked = self.look_closer(a, b, Some((best.separation, best.normal)));
-                measure.close_cores([a, b], asked, &axes, &looked)
+                measure.close_cores([a, b], query, &axes, &looked)
             }
         }
     }
 
     /// Shapes with a gap between their cores that one direction proves: finds the nearest points first, and then the
     /// axes that matter beside theirs.
-    fn gap(&self, [a, b]: [&Outline; 2], asked: &Asked, shown: (f64, DVec2), band: f64) -> Probe {
+    fn gap(&self, [a, b]: [&Outline; 2], query: &Query, shown: (f64, DVec2), band: f64) -> Probe {
         let looked = self.look_closer(a, b, Some(shown));
         let (normal, least) = match &looked.1 {
             Cores::Between(witness) => (witness.normal, witness.distance),
@@ -181,7 +190,7 @@ impl<'a> Convex<'a> {
         };
         let mut axes = beside(a, b, normal, least - band);
         axes.short = doubt(&self.measure.precision);
-        self.measure.close_cores([a, b], asked, &axes, &looked)
+        self.measure.close_cores([a, b], query, &axes, &looked)
     }
 
     /// Contact points over an edge of A, or of B, along its outward normal: see [`over_edge`].
@@ -212,10 +221,10 @@ impl<'a> Convex<'a> {
     }
 
     #[inline]
-    pub(super) fn with_outlines<R>(&self, ask: impl FnOnce(&Outline, &Outline) -> R) -> R {
+    pub(super) fn with_outlines<R>(&self, run: impl FnOnce(&Outline, &Outline) -> R) -> R {
         let (core_a, core_b): (Core2, Core2) = (self.shape_a.core(), self.shape_b.core());
         let a = Outline::new(self.shape_a, &core_a, self.turn_a, DVec2::ZERO);
         let b = Outline::new(self.shape_b, &core_b, self.turn_b, self.offset);
-        ask(&a, &b)
+        run(&a, &b)
     }
 }

@@ -13,7 +13,7 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 const MAX_STEPS: usize = 64;
 
 /// Share of the size above which the axis between the witness points is more than rounding.
-const TELLING: f64 = 1e-6;
+const CLEAR_GAP: f64 = 1e-6;
 
 /// How far the iteration got.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
@@ -73,7 +73,7 @@ pub(crate) struct Witness {
 impl Witness {
     /// Whether, for a pair of this size, the points are so close that the axis between them is mostly rounding.
     pub(crate) fn is_close(&self, size: f64) -> bool {
-        self.distance <= TELLING * size
+        self.distance <= CLEAR_GAP * size
     }
 }
 

@@ -13,9 +13,9 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::{DISTANCE_GAP, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Rect, Shape2};
 
-/// What is asked about two shapes.
+/// A query about two shapes.
 #[derive(Clone, Copy)]
-pub(crate) struct Asked {
+pub(crate) struct Query {
     /// Separations above this are not wanted, in metres.
     pub(crate) limit: f64,
     /// The axis to try first.
@@ -114,11 +114,11 @@ impl Measure {
 
     /// What is wanted of the best axis. `towards_b` is from A's centre to B's.
     #[inline]
-    pub(super) fn wanted(&self, asked: &Asked, towards_b: DVec2) -> Wanted<'_> {
+    pub(super) fn wanted(&self, query: &Query, towards_b: DVec2) -> Wanted<'_> {
         Wanted {
-            limit: asked.limit + self.radii + self.precision.projection(),
+            limit: query.limit + self.radii + self.precision.projection(),
             band: 2.0 * self.preference,
-            hint: asked.hint,
+            hint: query.hint,
             towards_b,
             precision: &self.precision,
         }
@@ -135,26 +135,26 @@ impl Measure {
     pub(super) fn at_once(
         &self,
         placed: [&impl Placed; 2],
-        asked: &Asked,
+        query: &Query,
         outcome: &Outcome,
     ) -> Option<Probe> {
         match outcome {
             Outcome::Beyond(separation, hint) => Some(self.beyond(*separation, *hint)),
             Outcome::Gap(..) => None,
-            Outcome::Within(axes) => self.within(placed, asked, axes),
+            Outcome::Within(axes) => self.within(placed, query, axes),
         }
     }
 
     /// The same for shapes that no axis separates by more than the limit.
     #[inline]
-    pub(super) fn within(&self, placed: [&impl Placed; 2], asked: &Asked, axes: &Axes) -> Option<Probe> {
+    pub(super) fn within(&self, placed: [&impl Placed; 2], query: &Query, axes: &Axes) -> Option<Probe> {
         let (best, rounding) = (axes.best(), self.precision.projection());
         // Every edge normal was tried, or is known to be no better. Shapes without an interior may lie on one line, and
         // have no candidate axis along it.
         if best.separation < -(axes.short + 2.0 * rounding) {
             let is_thin = placed[0].is_flat() && placed[1].is_flat();
             let verdict = Verdict { overlapping: true, tier: Tier::Bound };
-            return (!is_thin).then(|| self.overlap_of_cores(placed, asked, axes, (verdict, 0.0)));
+            return (!is_thin).then(|| self.overlap_of_cores(placed, query, axes, (verdict, 0.0)));
         }
         if best.separation <= doubt(&self.precision) {
             return None;
@@ -165,14 +165,14 @@ impl Measure {
             return None;
         }
         let verdict = Verdict { overlapping, tier: Tier::Bound };
-        Some(self.gap_of_cores(placed, asked, axes, (verdict, &witness)))
+        Some(self.gap_of_cores(placed, query, axes, (verdict, &witness)))
     }
 
     /// The answer for shapes whose axes alone show neither a clear gap nor a clear overlap of the cores.
     pub(super) fn close_cores(
         &self,
         placed: [&impl Placed; 2],
-        asked: &Asked,
+        query: &Query,
         axes: &Axes,
         (verdict, cores): &(Verdict, Cores),
     ) -> Probe {
@@ -180,13 +180,13 @@ impl Measure {
         match cores {
             // A search that proved no gap, while all axes show an overlap.
             Cores::Between(witness) if verdict.overlapping && axes.best().separation + axes.short < 0.0 => {
-                self.overlap_of_cores(placed, asked, axes, (verdict, witness.distance))
+                self.overlap_of_cores(placed, query, axes, (verdict, witness.distance))
             }
-            Cores::Between(witness) => self.gap_of_cores(placed, asked, axes, (verdict, witness)),
+            Cores::Between(witness) => self.gap_of_cores(placed, query, axes, (verdict, witness)),
             Cores::Within(gap) if verdict.overlapping => {
-                self.overlap_of_cores(placed, asked, axes, (verdict, *gap))
+                self.overlap_of_cores(placed, query, axes, (verdict, *gap))
             }
-            Cores::Within(gap) => self.all_but_touching(placed, asked, axes, (verdict, *gap)),
+            Cores::Within(gap) => self.all_but_touching(placed, query, axes, (verdict, *gap)),
         }
     }
 
@@ -196,13 +196,13 @@ impl Measure {
     fn overlap_of_cores(
         &self,
         placed: [&impl Placed; 2],
-        asked: &Asked,
+        query: &Query,
         axes: &Axes,
         (verdict, gap): (Verdict, f64),
     ) -> Probe {
         let best = axes.best();
         let depth = best.separation - self.radii;
-        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.sizes()));
+        let touch = query.points.then(|| touch(placed, axes, None, query.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(depth, true),
@@ -232,7 +232,7 @@ impl Measure {
     fn gap_of_cores(
         &self,
         placed: [&impl Placed; 2],
-        asked: &Asked,
+        query: &Query,
         axes: &Axes,
         (verdict, witness): (Verdict, &Witness),
     ) -> Probe {
@@ -242,7 +242,7 @@ impl Measure {
         let best = axes.best();
         let has_axis = best.separation > f64::NEG_INFINITY;
         let hint = if has_axis { hint_of(best.of) } else { hint_of_direction(witness.normal) };
-        let touch = asked.points.then(|| touch(placed, axes, Some(witness), asked.limit, self.sizes()));
+        let touch = query.points.then(|| touch(placed, axes, Some(witness), query.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),
@@ -259,7 +259,7 @@ impl Measure {
     fn all_but_touching(
         &self,
         placed: [&impl Placed; 2],
-        asked: &Asked,
+        query: &Query,
         axes: &Axes,
         (verdict, gap): (Verdict, f64),
     ) -> Probe {
@@ -269,7 +269,7 @@ impl Measure {
         let nearest = touch(placed, axes, None, 0.0, self.sizes());
         let deepest = nearest.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         let short = Self::short(axes, gap) + 3.0 * precision.projection();
-        let touch = asked.points.then(|| touch(placed, axes, None, asked.limit, self.sizes()));
+        let touch = query.points.then(|| touch(placed, axes, None, query.limit, self.sizes()));
         Probe::Near(Near {
             verdict,
             separation: signed(separation, verdict.overlapping),

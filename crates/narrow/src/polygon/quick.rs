@@ -10,7 +10,7 @@
 //! by more than that. The rounding of positions and centres is bounded by the sum of their coordinates.
 
 use super::few::{self, Few};
-use super::measure::{Asked, Measure, Probe};
+use super::measure::{Measure, Probe, Query};
 use super::outline::{FEW_VERTICES, Turn};
 use super::rects::{self, Corners, Rects};
 use super::sat::{Named, hint_of, named};
@@ -86,21 +86,21 @@ impl Bodies<'_> {
     ///
     /// The offset between them is passed by value, in registers: see `rects`.
     #[inline]
-    pub(crate) fn answer(&self, asked: &Asked) -> Option<Probe> {
+    pub(crate) fn answer(&self, query: &Query) -> Option<Probe> {
         if let [Shape2::Rect(a), Shape2::Rect(b)] = self.shapes {
-            return of_rects([a, b], self.turns, self.between, asked);
+            return of_rects([a, b], self.turns, self.between, query);
         }
-        of_others(self.shapes, self.turns, self.between, asked)
+        of_others(self.shapes, self.turns, self.between, query)
     }
 
-    fn few<const N: usize>(&self, cores: [(&[Vec2], &[DVec2]); 2], asked: &Asked) -> Option<Probe> {
+    fn few<const N: usize>(&self, cores: [(&[Vec2], &[DVec2]); 2], query: &Query) -> Option<Probe> {
         let measure = Measure::new(self.shapes, self.between, None);
         let (radius_a, radius_b) = (self.shapes[0].radius().into(), self.shapes[1].radius().into());
         let a = Few::<N>::new(cores[0], self.turns[0], DVec2::ZERO, radius_a);
         let b = Few::<N>::new(cores[1], self.turns[1], self.between, radius_b);
-        let kept = named([cores[0].1.len(), cores[1].1.len()], asked.hint).and_then(Named::edge);
-        let outcome = few::separating_axes([&a, &b], kept, &measure.wanted(asked, self.between));
-        measure.at_once([&a, &b], asked, &outcome)
+        let kept = named([cores[0].1.len(), cores[1].1.len()], query.hint).and_then(Named::edge);
+        let outcome = few::separating_axes([&a, &b], kept, &measure.wanted(query, self.between));
+        measure.at_once([&a, &b], query, &outcome)
     }
 
     /// A lower bound on how far they are apart, if circles around them show more than a limit.
@@ -125,25 +125,25 @@ impl Bodies<'_> {
 }
 
 /// The answer for two rectangles, by their four axes.
-fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
+fn of_rects([a, b]: [&Rect; 2], turns: [&Turn; 2], between: DVec2, query: &Query) -> Option<Probe> {
     let measure = Measure::of_rects([a, b], between);
-    let wanted = measure.wanted(asked, between);
+    let wanted = measure.wanted(query, between);
     let halves = [a.half_extents().as_dvec2(), b.half_extents().as_dvec2()];
-    let kept = named([4, 4], asked.hint).and_then(Named::edge);
+    let kept = named([4, 4], query.hint).and_then(Named::edge);
     let axes = match rects::best_axes(halves, turns, between, (kept, &wanted)) {
         Ok(axes) => axes,
         Err((separation, of)) => return Some(measure.beyond(separation, hint_of(of))),
     };
     let corners_a = Corners::new(halves[0], turns[0], DVec2::ZERO, f64::from(a.radius()));
     let corners_b = Corners::new(halves[1], turns[1], between, f64::from(b.radius()));
-    measure.within([&corners_a, &corners_b], asked, &axes)
+    measure.within([&corners_a, &corners_b], query, &axes)
 }
 
 /// The answer for other shapes: by circles first, and then by all axes of few edges.
-fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &Asked) -> Option<Probe> {
+fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, query: &Query) -> Option<Probe> {
     let bodies = Bodies { shapes, turns, between };
-    if let Some(gap) = bodies.beyond(asked.limit) {
-        return Some(Probe::Beyond(round_down(gap), asked.hint));
+    if let Some(gap) = bodies.beyond(query.limit) {
+        return Some(Probe::Beyond(round_down(gap), query.hint));
     }
     let (core_a, core_b) = (shapes[0].core(), shapes[1].core());
     let cores = [(core_a.vertices(), core_a.normals()), (core_b.vertices(), core_b.normals())];
@@ -152,5 +152,5 @@ fn of_others(shapes: [&Shape2; 2], turns: [&Turn; 2], between: DVec2, asked: &As
     if a.min(b) == 0 || a + b == 2 || a.max(b) > FEW_VERTICES {
         return None;
     }
-    if a.max(b) <= 8 { bodies.few::<8>(cores, asked) } else { bodies.few::<FEW_VERTICES>(cores, asked) }
+    if a.max(b) <= 8 { bodies.few::<8>(cores, query) } else { bodies.few::<FEW_VERTICES>(cores, query) }
 }

@@ -213,17 +213,17 @@ fn kernels_find_the_best_axis_of_all() {
                 }
             }
         }
-        for told in [sides(&a, &b, towards_b, doubt), search::sides(&a, &b, towards_b, doubt)] {
-            match told {
+        for found in [sides(&a, &b, towards_b, doubt), search::sides(&a, &b, towards_b, doubt)] {
+            match found {
                 Sides::Apart => assert!(truth.best().separation > 0.0),
                 Sides::Overlapping => assert!(truth.best().separation < 0.0),
                 Sides::Unclear => assert!(truth.best().separation.abs() <= 2.0 * doubt),
             }
         }
         if most <= 8 {
-            let told =
+            let found =
                 [few::sides([&a.few::<8>(), &b.few()], doubt), few::sides([&a.few::<16>(), &b.few()], doubt)];
-            assert_eq!(told[0], told[1]);
+            assert_eq!(found[0], found[1]);
         }
     }
     assert!(deep > 1000 && apart > 500 && gaps > 200, "{deep} {apart} {gaps}");
@@ -313,14 +313,14 @@ fn no_question_about_large_polygons_is_quadratic() {
         let (here, there) = (Pose2::IDENTITY, Pose2::new(centers + away, turn).unwrap());
         let pair = Pair2::new(&shape_a, &here, &shape_b, &there);
         let (apart, of_distance) = steps_of(|| pair.distance().is_some());
-        let asked = [
+        let steps = [
             of_distance,
             steps_of(|| pair.separation(f32::INFINITY)).1,
             steps_of(|| pair.manifold(1e6)).1,
             steps_of(|| pair.overlaps()).1,
         ];
-        let most = asked.into_iter().max().unwrap();
-        assert!(most <= 30 * edges + 2000, "{asked:?} steps for {edges} edges, apart: {apart}");
+        let most = steps.into_iter().max().unwrap();
+        assert!(most <= 30 * edges + 2000, "{steps:?} steps for {edges} edges, apart: {apart}");
         worst = worst.max(most as f64 / edges as f64);
         large += usize::from(edges > 2000);
     }

@@ -6,7 +6,7 @@
 //! Exact    integers, from the corners where f64 stopped                                                (exact)
 //! ```
 
-use super::convex::{Convex, Told};
+use super::convex::{ClosedForm, Convex};
 use super::distance::{Close, Reached, Until, Witness, distance};
 use super::outline::Outline;
 use super::sat::{Sides, doubt, sides};
@@ -30,12 +30,12 @@ impl Convex<'_> {
     /// or for corners around a common point.
     pub(crate) fn verdict(&self) -> Verdict {
         if self.has_line() {
-            return self.told_verdict(&self.told_lines());
+            return self.closed_form_verdict(&self.closed_form_of_lines());
         }
         self.with_outlines(|a, b| {
             let edges = a.edge_count() + b.edge_count();
             if edges == 0 {
-                return self.told_verdict(&self.told_points(a, b));
+                return self.closed_form_verdict(&self.closed_form_of_points(a, b));
             }
             if self.measure.radii == 0.0 {
                 return match sides(a, b, self.towards_b(), doubt(&self.measure.precision)) {
@@ -44,7 +44,7 @@ impl Convex<'_> {
                     _ => self.look_closer(a, b, None).0,
                 };
             }
-            let verdict = self.conclude(distance(a, b, unit(self.towards_b()), &self.until_told())).0;
+            let verdict = self.conclude(distance(a, b, unit(self.towards_b()), &self.until_decided())).0;
             // The test that is tried first is the first tier.
             let tier = if verdict.tier == Tier::Exact { Tier::Exact } else { Tier::Bound };
             Verdict { tier, ..verdict }
@@ -57,12 +57,12 @@ impl Convex<'_> {
             return a.separation_from(&b, || true) <= 0.0;
         }
         if self.has_line() {
-            return self.told_lines().separation <= 0.0;
+            return self.closed_form_of_lines().separation <= 0.0;
         }
         self.with_outlines(|a, b| {
             let edges = a.edge_count() + b.edge_count();
             if edges == 0 {
-                return self.told_points(a, b).separation <= 0.0;
+                return self.closed_form_of_points(a, b).separation <= 0.0;
             }
             if self.measure.radii == 0.0 {
                 return sides(a, b, self.towards_b(), 0.0) != Sides::Apart;
@@ -80,13 +80,13 @@ impl Convex<'_> {
     }
 
     /// For shapes of which at least one is a half-plane.
-    fn told_lines(&self) -> Told {
+    fn closed_form_of_lines(&self) -> ClosedForm {
         match self.lines() {
-            [Some(a), Some(b)] => self.told_half_planes(a, b),
+            [Some(a), Some(b)] => self.closed_form_of_half_planes(a, b),
             [Some(line), _] | [_, Some(line)] => {
-                self.with_outlines(|a, b| self.told_half_plane(line, if line.is_b { a } else { b }))
+                self.with_outlines(|a, b| self.closed_form_of_half_plane(line, if line.is_b { a } else { b }))
             }
-            [None, None] => self.with_outlines(|a, b| self.told_points(a, b)),
+            [None, None] => self.with_outlines(|a, b| self.closed_form_of_points(a, b)),
         }
     }
 
@@ -97,7 +97,7 @@ impl Convex<'_> {
     }
 
     /// For a yes or no, a distance is known well enough once it shows whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
+    fn until_decided(&self) -> Until<'_> {
         let doubt = self.measure.precision.projection();
         Until {
             beyond: self.measure.radii + doubt,
@@ -107,10 +107,10 @@ impl Convex<'_> {
     }
 
     /// Whether the shapes overlap, given their separation in closed form.
-    pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
+    pub(super) fn closed_form_verdict(&self, result: &ClosedForm) -> Verdict {
         let doubt = 2.0 * self.measure.precision.projection();
-        if told.separation.abs() > doubt {
-            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
+        if result.separation.abs() > doubt {
+            return Verdict { overlapping: result.separation < 0.0, tier: Tier::Bound };
         }
         self.exactly(&[])
     }

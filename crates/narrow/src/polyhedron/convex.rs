@@ -28,14 +28,14 @@
 //! best.
 
 mod apart;
+mod closed_form;
 mod parted;
 mod solids;
-mod told;
 
 use super::cuboids::{Cuboids, Sides};
 use super::distance::Witness;
 use super::half_space::Plane;
-use super::manifold::{Ask, Point, Touch, touch_into};
+use super::manifold::{Point, Touch, TouchInput, touch_into};
 use super::sat::{Axes, last_of};
 use super::slender::{self, Nearest, Slender};
 use super::solid::Solid;
@@ -46,7 +46,7 @@ use crate::precision::{IN_SPACE, Precision, length_at_most};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{EVEN_DEPTH, FACE_PREFERENCE, SAME_PLACE};
 use asunder_geometry::{Basis3, Hull, Shape3};
-use told::Ball;
+use closed_form::Ball;
 
 /// Two convex shapes in the frame of the pair: A's axes, about A's position.
 pub(crate) struct Convex<'a> {
@@ -77,9 +77,9 @@ pub(crate) struct Near {
     evidence: Evidence,
 }
 
-/// What is asked of a pair.
+/// A query about a pair.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked {
+pub(crate) struct Query {
     /// Beyond this separation, in metres, nothing else needs to be known.
     pub(crate) limit: f64,
     /// Last frame's hint.
@@ -135,17 +135,19 @@ impl<'a> Convex<'a> {
     }
 
     /// The separation where it is within the limit; the hinted axis is tried first.
-    pub(crate) fn probe(&self, asked: Asked) -> Probe {
-        let limit = asked.limit;
+    pub(crate) fn probe(&self, query: Query) -> Probe {
+        let limit = query.limit;
         if let Some(ball) = self.ball() {
-            return self.told(self.told_ball(ball), limit);
+            return self.probe_closed_form(self.closed_form_of_ball(ball), limit);
         }
         match self.planes() {
-            [Some(a), Some(b)] => self.told(self.told_half_spaces(a, b), limit),
-            [Some(plane), None] | [None, Some(plane)] => self.told(self.told_half_space(plane), limit),
+            [Some(a), Some(b)] => self.probe_closed_form(self.closed_form_of_half_spaces(a, b), limit),
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.probe_closed_form(self.closed_form_of_half_space(plane), limit)
+            }
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told(self.told_slender(&a, &b), limit),
-                None => self.with_solids(|a, b| self.probe_solids(a, b, asked)),
+                Some([a, b]) => self.probe_closed_form(self.closed_form_of_slender(&a, &b), limit),
+                None => self.with_solids(|a, b| self.probe_solids(a, b, query)),
             },
         }
     }
@@ -154,26 +156,26 @@ impl<'a> Convex<'a> {
     /// once, since it costs something to build a [`Solid`] from a cuboid.
     pub(crate) fn contact(
         &self,
-        asked: Asked,
+        query: Query,
         accept: impl FnOnce(&Near) -> bool,
         touch: &mut Touch,
     ) -> (Probe, bool) {
         let (([None, None], None), None) = ((self.planes(), self.ball()), self.slenders()) else {
-            let probe = self.probe(asked);
+            let probe = self.probe(query);
             let is_made = match &probe {
-                Probe::Near(near) if accept(near) => self.touch(near, asked, touch),
+                Probe::Near(near) if accept(near) => self.touch(near, query, touch),
                 _ => false,
             };
             return (probe, is_made);
         };
-        if let Some(probe) = self.parted_as_before(asked) {
+        if let Some(probe) = self.parted_as_before(query) {
             return (probe, false);
         }
         self.with_solids(|a, b| {
-            let probe = self.probe_solids(a, b, asked);
+            let probe = self.probe_solids(a, b, query);
             let is_made = match &probe {
                 Probe::Near(near) if accept(near) => {
-                    self.touch_solids((a, b), near, asked, touch);
+                    self.touch_solids((a, b), near, query, touch);
                     true
                 }
                 _ => false,
@@ -197,15 +199,17 @@ impl<'a> Convex<'a> {
             };
         }
         if let Some(ball) = self.ball() {
-            return self.told_verdict(&self.told_ball(ball));
+            return self.closed_form_verdict(&self.closed_form_of_ball(ball));
         }
         match self.planes() {
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told_verdict(&self.told_slender(&a, &b)),
+                Some([a, b]) => self.closed_form_verdict(&self.closed_form_of_slender(&a, &b)),
                 None => self.with_solids(|a, b| self.verdict_of_solids(a, b)),
             },
-            [Some(a), Some(b)] => self.told_verdict(&self.told_half_spaces(a, b)),
-            [Some(plane), None] | [None, Some(plane)] => self.told_verdict(&self.told_half_space(plane)),
+            [Some(a), Some(b)] => self.closed_form_verdict(&self.closed_form_of_half_spaces(a, b)),
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.closed_form_verdict(&self.closed_form_of_half_space(plane))
+            }
         }
     }
 
@@ -217,23 +221,25 @@ impl<'a> Convex<'a> {
             return cuboids.overlaps();
         }
         if let Some(ball) = self.ball() {
-            return self.told_ball(ball).separation <= 0.0;
+            return self.closed_form_of_ball(ball).separation <= 0.0;
         }
         match self.planes() {
             [None, None] => match self.slenders() {
-                Some([a, b]) => self.told_slender(&a, &b).separation <= 0.0,
+                Some([a, b]) => self.closed_form_of_slender(&a, &b).separation <= 0.0,
                 None => self.with_solids(|a, b| self.guess_of_solids(a, b)),
             },
             [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(plane), None] | [None, Some(plane)] => self.told_half_space(plane).separation <= 0.0,
+            [Some(plane), None] | [None, Some(plane)] => {
+                self.closed_form_of_half_space(plane).separation <= 0.0
+            }
         }
     }
 
     /// Contact points of shapes within the limit, on their surfaces. They are made on the features that last frame's
     /// hint names, unless those are worse by two preferences. Filled in, since they are large. False for two
     /// half-spaces that overlap without bound, which have none.
-    fn touch(&self, near: &Near, asked: Asked, touch: &mut Touch) -> bool {
-        let (margin, preference) = (asked.limit, self.preference());
+    fn touch(&self, near: &Near, query: Query, touch: &mut Touch) -> bool {
+        let (margin, preference) = (query.limit, self.preference());
         let (a, b) = match &near.evidence {
             Evidence::HalfSpaces(a, b) => (a, b),
             Evidence::HalfSpace(plane) => {
@@ -253,7 +259,7 @@ impl<'a> Convex<'a> {
                 return true;
             }
             Evidence::Axes(..) => {
-                self.with_solids(|a, b| self.touch_solids((a, b), near, asked, touch));
+                self.with_solids(|a, b| self.touch_solids((a, b), near, query, touch));
                 return true;
             }
         };
@@ -267,12 +273,12 @@ impl<'a> Convex<'a> {
 
     /// [`Convex::contact`] by the kernels of solids, whatever the shapes.
     #[cfg(test)]
-    pub(crate) fn contact_of_solids(&self, asked: Asked) -> (Probe, Touch) {
+    pub(crate) fn contact_of_solids(&self, query: Query) -> (Probe, Touch) {
         let mut touch = Touch::none();
         let probe = self.with_solids(|a, b| {
-            let probe = self.probe_solids(a, b, asked);
+            let probe = self.probe_solids(a, b, query);
             if let Probe::Near(near) = &probe {
-                self.touch_solids((a, b), near, asked, &mut touch);
+                self.touch_solids((a, b), near, query, &mut touch);
             }
             probe
         });
@@ -280,13 +286,13 @@ impl<'a> Convex<'a> {
     }
 
     /// [`Convex::touch`] for shapes that are treated as solids.
-    fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, asked: Asked, touch: &mut Touch) {
-        let (margin, preference) = (asked.limit, self.preference());
+    fn touch_solids(&self, (a, b): (&Solid, &Solid), near: &Near, query: Query, touch: &mut Touch) {
+        let (margin, preference) = (query.limit, self.preference());
         if let Evidence::Axes(axes, witness) = &near.evidence {
-            let (even, last) = (self.even_depth(), last_of(asked.hint));
+            let (even, last) = (self.even_depth(), last_of(query.hint));
             let near = self.same_place();
-            let ask = Ask { axes, witness: witness.as_ref(), margin, preference, even, near, last };
-            touch_into(a, b, &ask, touch);
+            let input = TouchInput { axes, witness: witness.as_ref(), margin, preference, even, near, last };
+            touch_into(a, b, &input, touch);
         }
     }
 
@@ -325,13 +331,13 @@ impl<'a> Convex<'a> {
         }
     }
 
-    pub(crate) fn with_solids<R>(&self, ask: impl FnOnce(&Solid, &Solid) -> R) -> R {
+    pub(crate) fn with_solids<R>(&self, run: impl FnOnce(&Solid, &Solid) -> R) -> R {
         // One by one: a pair of them would be moved, and cores that are built here are large.
         let core_a = self.shape_a.core();
         let core_b = self.shape_b.core();
         let a = Solid::new(&core_a, IDENTITY, DVec3::ZERO, f64::from(self.shape_a.radius()));
         let b = Solid::new(&core_b, self.relative, self.offset, f64::from(self.shape_b.radius()));
-        ask(&a, &b)
+        run(&a, &b)
     }
 
     /// By how much another axis must beat a face of A, in metres. Relative to the smaller shape: what is nothing to a

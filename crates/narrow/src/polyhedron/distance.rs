@@ -23,7 +23,7 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 const MAX_STEPS: usize = 64;
 
 /// Share of the pair's size above which the axis from one witness point to the other is not rounding.
-pub(crate) const TELLING: f64 = 1e-6;
+pub(crate) const CLEAR_GAP: f64 = 1e-6;
 
 /// How far the iteration came.
 #[allow(clippy::large_enum_variant, reason = "it lives on the stack for one pair")]
@@ -85,7 +85,7 @@ pub(crate) struct Witness {
 impl Witness {
     /// Whether the points are so close for a pair of this size that the axis from one to the other is rounding.
     pub(crate) fn is_close(&self, size: f64) -> bool {
-        self.distance <= TELLING * size
+        self.distance <= CLEAR_GAP * size
     }
 }
 

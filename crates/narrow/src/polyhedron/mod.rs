@@ -19,4 +19,4 @@ pub(crate) mod simplex;
 pub(crate) mod slender;
 pub(crate) mod solid;
 
-pub(crate) use distance::TELLING;
+pub(crate) use distance::CLEAR_GAP;

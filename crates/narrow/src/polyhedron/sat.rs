@@ -108,7 +108,7 @@ const MANY: usize = 64;
 const MANY_PAIRS: usize = 1600;
 
 /// Vertices kept of each solid to show that an axis is not the best.
-const SEEN: usize = 6;
+const MOST_SUPPORTS: usize = 6;
 
 /// What is asked of the test.
 #[derive(Clone, Copy, Debug)]
@@ -199,13 +199,13 @@ struct Found {
     floor: f64,
     /// Support vertices of A and of B along earlier axes. Along any axis, the true separation is no more than they
     /// show.
-    seen: [ArrayVec<(usize, DVec3), SEEN>; 2],
+    supports: [ArrayVec<(usize, DVec3), MOST_SUPPORTS>; 2],
 }
 
 impl Found {
     fn new(search: &Search) -> Self {
-        let seen = [ArrayVec::new(), ArrayVec::new()];
-        Self { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, seen }
+        let supports = [ArrayVec::new(), ArrayVec::new()];
+        Self { axes: Axes::NONE, aside: f64::INFINITY, floor: search.known, supports }
     }
 
     /// Evaluates the most promising face of each solid first: the better the best axis, the more it culls. Returns
@@ -258,7 +258,7 @@ impl Found {
             _ => (-outward, AxisOf::FaceB(face)),
         };
         if separation > self.floor {
-            self.see(1 - which, other, support.vertex);
+            self.keep_support(1 - which, other, support.vertex);
         }
         self.offer(Axis { separation, normal, of });
         support.vertex
@@ -403,8 +403,8 @@ impl Found {
         }
         let normal = cross.axis / length;
         let (in_a, in_b) = (a.support(normal), b.support(-normal));
-        self.see(0, a, in_a.vertex);
-        self.see(1, b, in_b.vertex);
+        self.keep_support(0, a, in_a.vertex);
+        self.keep_support(1, b, in_b.vertex);
         let of = AxisOf::Edges(edges[0].half_edge, edges[1].half_edge);
         let axis = Axis { separation: -in_b.reach - in_a.reach, normal, of };
         if cross.is_noise() {
@@ -440,10 +440,10 @@ impl Found {
     /// best face: they never show less than the true separation.
     fn shows_too_little(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (_, point) in &self.seen[1] {
+        for (_, point) in &self.supports[1] {
             lowest = lowest.min(cross.axis.dot(*point));
         }
-        for (_, point) in &self.seen[0] {
+        for (_, point) in &self.supports[0] {
             highest = highest.max(cross.axis.dot(*point));
         }
         self.is_too_little(lowest - highest, (cross, length), search)
@@ -455,13 +455,13 @@ impl Found {
     }
 
     /// Remembers a vertex of A (0) or of B (1), in place of the oldest one once the list is full.
-    fn see(&mut self, which: usize, solid: &Solid, vertex: usize) {
-        let seen = &mut self.seen[which];
-        if seen.iter().all(|&(known, _)| known != vertex) {
-            if seen.is_full() {
-                seen.remove(0);
+    fn keep_support(&mut self, which: usize, solid: &Solid, vertex: usize) {
+        let supports = &mut self.supports[which];
+        if supports.iter().all(|&(known, _)| known != vertex) {
+            if supports.is_full() {
+                supports.remove(0);
             }
-            seen.push((vertex, solid.point(vertex)));
+            supports.push((vertex, solid.point(vertex)));
         }
     }
 }

@@ -2,7 +2,7 @@ use super::super::course::Course;
 use super::super::impact;
 use super::super::piece::for_pieces;
 use super::super::stretch::{Stretch, Travel};
-use super::{Legs, seen};
+use super::{Legs, in_axes_of};
 use crate::counted::steps_of;
 use crate::impact2::Impact2;
 use crate::numbers::Numbers;
@@ -69,7 +69,7 @@ fn plainly(pair: &Pair2, stretch: &Stretch) -> Option<Impact2> {
 #[test]
 fn what_legs_leave_out_is_never_what_is_met() {
     let mut numbers = Numbers::new(2712);
-    let mut told = [0; 2];
+    let mut outcomes = [0; 2];
     for i in 0..900 {
         let far = [DVec2::ZERO, DVec2::new(1e5, -2e5)][i % 2];
         let half = vector(&mut numbers) * 3.0 + DVec2::splat(3.5);
@@ -100,10 +100,10 @@ fn what_legs_leave_out_is_never_what_is_met() {
             let travel = Travel::of(&pair, [moves_a, moves_b]);
             let truth = travel.stretches().iter().find_map(|stretch| plainly(&pair, stretch));
             assert_eq!(pair.impact(moves_a, moves_b), truth, "{i}");
-            told[usize::from(truth.is_some())] += 1;
+            outcomes[usize::from(truth.is_some())] += 1;
         }
     }
-    assert!(told[0] > 200 && told[1] > 400, "{told:?}");
+    assert!(outcomes[0] > 200 && outcomes[1] > 400, "{outcomes:?}");
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
                 for leg in &legs.legs {
                     let beside = leg.radius - piece.outer;
                     for share in (0..=16).map(|step| f64::from(step) / 16.0) {
-                        let truth = seen(stretch, 0, piece.center, leg.from + leg.span * share);
+                        let truth = in_axes_of(stretch, 0, piece.center, leg.from + leg.span * share);
                         let off = (leg.start + leg.way * share - truth).length();
                         assert!(off <= beside, "{i}: {off} {beside}");
                         furthest = furthest.max(off / beside.max(0.01));

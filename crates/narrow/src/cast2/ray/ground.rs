@@ -1,6 +1,6 @@
 //! Rays into chains: segment by segment, in the order in which their boxes are met.
 
-use super::{Asked, Beam};
+use super::{Beam, Target};
 use crate::counted::count_step;
 use crate::impact2::RayHit2;
 use asunder_geometry::glam::DVec2;
@@ -50,7 +50,7 @@ fn crossed(
         return None;
     }
     let shape = Shape2::Segment(chain.segment(segment)?);
-    let mut hit = Asked { shape: &shape, pose, part: None, index: segment, ray }.answer(beam, reach)?;
+    let mut hit = Target { shape: &shape, pose, part: None, index: segment, ray }.answer(beam, reach)?;
     let straight = pose.rotation().turn(front).normalize();
     if !hit.inside && straight.dot(hit.normal.as_dvec2()).abs() > CROSSED {
         hit.normal = if along > 0.0 { -straight } else { straight }.as_vec2();

@@ -56,7 +56,7 @@ fn motion(numbers: &mut Numbers, from: &Pose3, way: DVec3, most: f64) -> Motion3
 /// The answer of all pairs of parts, one after the other, for two bodies that do not touch at the start.
 fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
     let mut first: Option<Impact3> = None;
-    let mut ask = |a: Part, b: Part| {
+    let mut visit = |a: Part, b: Part| {
         let until = first.map_or(1.0, |known| known.fraction);
         let Some(stretch) = passage.stretch([&a, &b], until) else { return };
         let (End::Met(met) | End::Unclear(met, false)) = part_end(passage, [a, b], &stretch, until) else {
@@ -68,7 +68,7 @@ fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
     };
     for_parts(pair.shape_a, &passage.bases[0], |a| {
         for_parts(pair.shape_b, &passage.bases[1], |b| {
-            ask(a, b);
+            visit(a, b);
             false
         })
     });
@@ -78,7 +78,7 @@ fn plainly(pair: &Pair3, passage: &Passage) -> Option<Impact3> {
 #[test]
 fn what_legs_leave_out_is_never_what_is_met() {
     let mut numbers = Numbers::new(2711);
-    let mut told = [0; 2];
+    let mut outcomes = [0; 2];
     for i in 0..900 {
         let far = [DVec3::ZERO, DVec3::new(1e5, -2e5, 3e4)][i % 2];
         let half = numbers.vector() * 2.0 + DVec3::splat(2.5);
@@ -107,10 +107,10 @@ fn what_legs_leave_out_is_never_what_is_met() {
             }
             let truth = plainly(&pair, &Passage::of_motions(&pair, [moves_a, moves_b]));
             assert_eq!(pair.impact(moves_a, moves_b), truth, "{i}");
-            told[usize::from(truth.is_some())] += 1;
+            outcomes[usize::from(truth.is_some())] += 1;
         }
     }
-    assert!(told[0] > 200 && told[1] > 400, "{told:?}");
+    assert!(outcomes[0] > 200 && outcomes[1] > 400, "{outcomes:?}");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn a_ball_is_within_its_legs_at_all_times() {
                 let ends = passage.bend(0, part.center.length(), [leg.from, leg.from + leg.span]);
                 let beside = 0.125 * ends * leg.span * leg.span;
                 for share in (0..=16).map(|step| f64::from(step) / 16.0) {
-                    let truth = passage.seen(0, local, leg.from + leg.span * share);
+                    let truth = passage.in_axes_of(0, local, leg.from + leg.span * share);
                     let off = (leg.start + leg.way * share - truth).length();
                     assert!(off <= beside + 1e-12 && beside < leg.radius - 0.5, "{i}: {off} {beside}");
                     furthest = furthest.max(off / beside.max(0.01));

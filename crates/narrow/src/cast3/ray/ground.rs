@@ -92,7 +92,7 @@ impl Cast<'_> {
             let size = f64::from(triangle.outer_radius()) + length(triangle.center().as_dvec3());
             let meeting = planes::crossed_triangle(&self.line(DVec3::ZERO, size), basis, &triangle);
             if !matches!(meeting, Meeting::Open) {
-                return self.told(meeting, limit);
+                return self.hit_in_closed_form(meeting, limit);
             }
         }
         self.slowly_on(&triangle.into(), basis, limit)

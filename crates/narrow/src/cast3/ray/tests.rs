@@ -80,10 +80,10 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
             let origin = target - way.as_dvec3() * (4.0 * outer / f64::from(way.length()));
             let Ok(ray) = Ray3::new(origin, way) else { continue };
             let hit = cast_ray3(&shape, &Pose3::IDENTITY, &ray, f64::INFINITY);
-            let told = format!("{kind} {case} {i}: {:?} {ray:?} {hit:?}", hull.vertices());
+            let context = format!("{kind} {case} {i}: {:?} {ray:?} {hit:?}", hull.vertices());
             counts[kind as usize][0] += 1;
             let Some(hit) = hit else {
-                assert!(!is_aimed || !hull.contains(target), "{told}");
+                assert!(!is_aimed || !hull.contains(target), "{context}");
                 continue;
             };
             counts[kind as usize][if is_aimed { 1 } else { 2 }] += 1;
@@ -91,10 +91,10 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
             let beside = Pair3::new(&POINT, &at, &shape, &Pose3::IDENTITY).distance();
             let rounding = 1e-14 * (origin.length() + outer);
             let beside = beside.map_or(0.0, |closest| f64::from(closest.distance - closest.error));
-            assert!(beside <= f64::from(hit.error) + rounding, "{beside} {told}");
+            assert!(beside <= f64::from(hit.error) + rounding, "{beside} {context}");
             // Nor is the error so large that the hit might be anywhere.
             let steep = way.as_dvec3().normalize().dot(hit.normal.as_dvec3()).abs();
-            assert!(f64::from(hit.error) * steep <= 1e-5 * outer, "{told}");
+            assert!(f64::from(hit.error) * steep <= 1e-5 * outer, "{context}");
         }
     }
     let are_many = |[rays, aimed, beside]: &[u32; 3]| *rays > 4000 && *aimed > 2000 && *beside > 0;

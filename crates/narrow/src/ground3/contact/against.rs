@@ -13,7 +13,7 @@
 use super::facet::Furthest;
 use super::groups::{Base, Groups, Pin};
 use super::prism::{Cut, Incident, Prism, STEEP, Span, within};
-use super::refused::Refusal;
+use super::rejected::Rejection;
 use crate::feature::Feature;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
@@ -30,7 +30,7 @@ pub(super) enum Against {
     /// The face's normal is not the answer, or may not be.
     Unknown,
     /// It is, and the ground around the triangle's feature rejects it.
-    Refused(Refusal),
+    Rejected(Rejection),
     /// It is, and points were added: the separation, and whether the part certainly shares a point with the triangle.
     Added(f64, bool),
 }
@@ -83,7 +83,7 @@ impl Prism<'_> {
         }
         if !facet.may_give(self.ground, furthest, -outwards) {
             let is_own = facet.is_nearly_own(-outwards);
-            return Against::Refused(Refusal { is_own, is_apart: least > doubt, told: None });
+            return Against::Rejected(Rejection { is_own, is_apart: least > doubt, measured: None });
         }
         let base = Base::along(-outwards, self.ground.patch(facet.number));
         for (share, by) in stretch.ends {

@@ -1,14 +1,14 @@
 //! Output of what was found for a part: manifolds in world axes.
 
 use super::groups::Group;
-use super::{Asking, Known};
+use super::{GroundQuery, Known};
 use crate::answer::ContactPoint3;
 use crate::feature::FeatureId;
 use crate::pair3::Part;
 use crate::precision::{IN_SPACE, Precision, signed};
 use crate::room::Room;
 
-impl Asking<'_> {
+impl GroundQuery<'_> {
     /// Outputs what was found; returns whether the part overlaps, if it is within the margin.
     #[inline]
     pub(super) fn answer(
@@ -22,7 +22,7 @@ impl Asking<'_> {
         let how = (overlapping, is_overlap_known, least);
         // The reported separation decides, as between solids: points that the slack let in and that do not touch may be
         // reported beyond the margin.
-        if !overlapping && (least == f64::INFINITY || told(least, how) > self.margin) {
+        if !overlapping && (least == f64::INFINITY || reported(least, how) > self.margin) {
             return None;
         }
         if manifolds.is_wanted() {
@@ -43,8 +43,8 @@ impl Asking<'_> {
         to: &mut impl Room,
     ) {
         let on = self.on;
-        let [deepest, doubt] = group.told;
-        let separation = told(deepest, how);
+        let [deepest, doubt] = group.recorded;
+        let separation = reported(deepest, how);
         if separation > self.margin {
             return;
         }
@@ -70,7 +70,7 @@ impl Asking<'_> {
 }
 
 /// A group's separation as it is reported: the deepest of all has the sign of the overlap decision.
-fn told(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
+fn reported(deepest: f64, (overlapping, is_overlap_known, least): (bool, bool, f64)) -> f32 {
     match overlapping {
         true if deepest <= least => signed(deepest, true),
         false if !is_overlap_known => signed(deepest, false),

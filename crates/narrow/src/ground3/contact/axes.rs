@@ -55,7 +55,7 @@ impl Prism<'_> {
     }
 
     /// Whether ground rejects the axis of least depth of overlapping cores, and all axes that are as good.
-    pub(super) fn refuses(&self, axes: &Axes) -> bool {
+    pub(super) fn rejects(&self, axes: &Axes) -> bool {
         let (standing, facet) = (self.standing, self.facet);
         let size = 2.0 * (standing.outer_radius + facet.corners[0].distance(facet.corners[1]));
         let slack = self.doubt + 2.0 * FACE_PREFERENCE * size;
@@ -72,7 +72,7 @@ impl Prism<'_> {
 
     /// The separation of a cuboid and a triangle that is level to the axis of least depth, and its error bound, in
     /// metres.
-    pub(super) fn told_by(&self, axes: &Axes) -> Option<[f64; 2]> {
+    pub(super) fn measured_by(&self, axes: &Axes) -> Option<[f64; 2]> {
         let (standing, facet) = (self.standing, self.facet);
         let mut best = axes.as_good_as(axes.best);
         let is_level = best.any(|axis| facet.is_level_to(standing.place.axes.turn(axis)));

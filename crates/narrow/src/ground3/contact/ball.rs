@@ -2,9 +2,9 @@
 
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Groups, Pin};
+use super::rejected_gaps::ClosestPoints;
 use super::standing::Standing;
-use super::unsaid::Unsaid;
-use super::{Known, Seen};
+use super::{Known, PartTest};
 use crate::feature::Feature;
 use crate::triangle::nearest_on_edges;
 use asunder_geometry::Ground;
@@ -47,22 +47,22 @@ impl Nearest {
 
     /// What is kept of it where ground rejects the direction, which is not the triangle's normal.
     #[inline]
-    pub(super) fn unsaid(
+    pub(super) fn closest_points(
         &self,
         (center, radius): (DVec3, f64),
         (ground, number): (Ground, u32),
         doubt: f64,
-    ) -> Unsaid {
+    ) -> ClosestPoints {
         let Self { at, separation, towards, .. } = *self;
         let ends = [center - towards * radius, at];
-        Unsaid {
+        ClosestPoints {
             number,
             separation,
             doubt,
             ends,
             normal: towards,
             is_own: false,
-            is_meant: !ground.is_one_sided(),
+            may_touch: !ground.is_one_sided(),
         }
     }
 
@@ -107,24 +107,24 @@ impl Nearest {
     }
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Processes one triangle, for a ball.
     pub(super) fn look_at_from_ball(&self, number: u32, known: &mut Known) {
-        let ground = self.asking.on.ground;
-        let Some(facet) = &Facet::seen(ground, number, self.standing.center) else { return };
+        let ground = self.query.on.ground;
+        let Some(facet) = &Facet::facing(ground, number, self.standing.center) else { return };
         let doubt = self.doubt_over(facet);
-        if facet.height(self.standing.center) - self.standing.radius > self.asking.reach + doubt {
+        if facet.height(self.standing.center) - self.standing.radius > self.query.reach + doubt {
             return;
         }
         let nearest = Nearest::of(self.standing, facet, doubt);
-        if nearest.separation > self.asking.reach + doubt {
+        if nearest.separation > self.query.reach + doubt {
             return;
         }
         let ball = (self.standing.center, self.standing.radius);
-        let is_within = nearest.separation <= self.asking.reach;
+        let is_within = nearest.separation <= self.query.reach;
         let has_points = is_within && nearest.add_point(ball, facet, ground, doubt, &mut known.groups);
         if is_within && !has_points {
-            known.leave_unsaid(nearest.unsaid(ball, (ground, number), doubt));
+            known.keep_rejected_gap(nearest.closest_points(ball, (ground, number), doubt));
         }
         if known.overlapping || nearest.separation > doubt {
             return;

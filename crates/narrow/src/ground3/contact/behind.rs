@@ -1,5 +1,5 @@
 //! Triangles of two-sided ground that are seen from behind, across a gap. They are processed after all others, but
-//! before those whose axis was rejected (`refused`): the normals of the latter are only substitutes, and would hide
+//! before those whose axis was rejected (`rejected`): the normals of the latter are only substitutes, and would hide
 //! these wrongly.
 //!
 //! ```text
@@ -14,8 +14,8 @@
 
 use super::facet::Facet;
 use super::prism::Prism;
-use super::refused::Heard;
-use super::{Known, Seen};
+use super::rejected::LeastAlong;
+use super::{Known, PartTest};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Ground, NearTriangle};
@@ -29,7 +29,7 @@ pub(super) type AllBehind = ArrayVec<NearTriangle, MOST_BEHIND>;
 /// above what is under the part.
 const ASIDE: f64 = 0.125;
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Keeps a triangle until all others have been processed, if it has to wait; returns whether it did.
     pub(super) fn leaves_behind(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) -> bool {
         let separation = prism.extent.low - self.standing.radius;
@@ -41,7 +41,7 @@ impl Seen<'_> {
         if known.behind.is_empty() {
             return;
         }
-        let heard = known.heard();
+        let found = known.least_along_each();
         // By index: taking the list out would copy all of it.
         for place in 0..known.behind.len() {
             let (near, mut plane) = (known.behind[place], None);
@@ -49,17 +49,17 @@ impl Seen<'_> {
                 continue;
             }
             let Some(plane) = &plane else { continue };
-            if !heard.iter().any(|&by| self.is_hidden(&plane.facet, by)) {
+            if !found.iter().any(|&by| self.is_hidden(&plane.facet, by)) {
                 self.look_on(&near, &self.prism_over(plane), known);
             }
         }
     }
 
     /// Whether a normal hides a triangle.
-    fn is_hidden(&self, facet: &Facet, by: Heard) -> bool {
+    fn is_hidden(&self, facet: &Facet, by: LeastAlong) -> bool {
         facet.normal.dot(by.0) <= ASIDE
             && self.is_left_below(facet, by)
-            && facet.has_beside(self.asking.on.ground, by.0)
+            && facet.has_beside(self.query.on.ground, by.0)
     }
 }
 

@@ -3,14 +3,14 @@
 use super::against::Against;
 use super::axes::Axes;
 use super::meeting::Met;
-use super::outstanding::{Explained, Needs};
 use super::prism::Prism;
-use super::refused::Refusal;
+use super::prominent_near::{Covered, Needs};
+use super::rejected::Rejection;
 use super::whole::touching;
-use super::{Known, Seen};
+use super::{Known, PartTest};
 use asunder_geometry::{NearTriangle, Prominent};
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Processes a triangle within reach.
     pub(super) fn look_on(&self, near: &NearTriangle, prism: &Prism, known: &mut Known) {
         let prominent = near.prominent;
@@ -46,23 +46,23 @@ impl Seen<'_> {
     /// Processes a triangle whose normal may not be the answer.
     fn look_closer(&self, prism: &Prism, prominent: Prominent, known: &mut Known) {
         let Prism { standing, facet, extent, doubt, .. } = *prism;
-        let beyond = self.asking.reach + 2.0 * doubt;
+        let beyond = self.query.reach + 2.0 * doubt;
         let mut axes = Axes::new();
-        let has_axes = !self.asking.is_plain && prism.fill(&mut axes, beyond + standing.radius);
+        let has_axes = !self.query.is_plain && prism.fill(&mut axes, beyond + standing.radius);
         let axes = has_axes.then_some(&axes);
         if standing.is_apart((facet, axes), beyond) {
             return;
         }
         known.note_level(prism, prominent);
-        match self.explained((prism, axes), known) {
-            Some(Explained::Wholly(least)) => {
+        match self.covered((prism, axes), known) {
+            Some(Covered::Wholly(least)) => {
                 if least <= doubt {
                     let separation = extent.low - standing.radius;
                     self.leave_unclear(facet.number, (true, separation), known);
                 }
                 return;
             }
-            Some(Explained::WhereDeep) => known.groups.leave_out(self.deep_below(prism)),
+            Some(Covered::WhereDeep) => known.groups.leave_out(self.deep_below(prism)),
             None => {}
         }
         self.look_by_axes(prism, axes, known);
@@ -75,8 +75,8 @@ impl Seen<'_> {
         let (number, separation) = (facet.number, extent.low - standing.radius);
         match prism.add_against(&self.incident_to(facet.normal, known), &mut known.groups) {
             Against::Apart => return,
-            Against::Refused(refusal) => {
-                self.refuse(prism, refusal, known);
+            Against::Rejected(rejection) => {
+                self.defer_rejected(prism, rejection, known);
                 return self.leave_unclear(number, (false, separation), known);
             }
             Against::Added(_, true) => return known.settle(number),
@@ -85,34 +85,34 @@ impl Seen<'_> {
             Against::Unknown => {}
         }
         if let Some(axes) = axes {
-            if axes.do_overlap(doubt) && prism.refuses(axes) {
+            if axes.do_overlap(doubt) && prism.rejects(axes) {
                 known.settle(number);
-                let (is_own, told) = (prism.is_own(axes), prism.told_by(axes));
-                return self.refuse(prism, Refusal { is_own, is_apart: false, told }, known);
+                let (is_own, measured) = (prism.is_own(axes), prism.measured_by(axes));
+                return self.defer_rejected(prism, Rejection { is_own, is_apart: false, measured }, known);
             }
             if axes.best > doubt
-                && let Some(unsaid) = prism.refused_gap(axes)
+                && let Some(gap) = prism.rejected_gap(axes)
             {
-                if unsaid.separation <= self.asking.margin.into() {
-                    known.leave_unsaid(unsaid);
-                    let is_own = unsaid.is_own;
-                    self.refuse(prism, Refusal { is_own, is_apart: true, told: None }, known);
+                if gap.separation <= self.query.margin.into() {
+                    known.keep_rejected_gap(gap);
+                    let is_own = gap.is_own;
+                    self.defer_rejected(prism, Rejection { is_own, is_apart: true, measured: None }, known);
                 }
                 return;
             }
         }
-        let met = self.meeting.add_points((ground, facet), standing, self.asking, &mut known.groups);
+        let met = self.meeting.add_points((ground, facet), standing, self.query, &mut known.groups);
         match met {
-            Met::Apart | Met::Told(false) => {}
-            Met::Told(true) => known.settle(number),
-            Met::Refused { overlapping, is_own, gap, told } => {
+            Met::Apart | Met::Added(false) => {}
+            Met::Added(true) => known.settle(number),
+            Met::Rejected { overlapping, is_own, gap, measured } => {
                 if overlapping {
                     known.settle(number);
                 }
-                if let Some(unsaid) = gap {
-                    known.leave_unsaid(unsaid);
+                if let Some(gap) = gap {
+                    known.keep_rejected_gap(gap);
                 }
-                self.refuse(prism, Refusal { is_own, is_apart: !overlapping, told }, known);
+                self.defer_rejected(prism, Rejection { is_own, is_apart: !overlapping, measured }, known);
             }
         }
     }

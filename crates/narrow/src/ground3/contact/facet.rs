@@ -60,7 +60,7 @@ enum Around {
 impl Facet {
     /// The triangle of this number, oriented towards a part with this centre. `None` for one-sided ground that faces
     /// away from it, and where the triangle has no normal.
-    pub(super) fn seen(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
+    pub(super) fn facing(ground: Ground, number: u32, center: DVec3) -> Option<Self> {
         let mut facet = Self::front_of(number, ground.corners(number))?;
         if !facet.has_in_front(ground, center) {
             if ground.is_one_sided() {

@@ -15,8 +15,8 @@
 
 use super::axes::Axes;
 use super::prism::Prism;
-use super::unsaid::Unsaid;
-use crate::polyhedron::TELLING;
+use super::rejected_gaps::ClosestPoints;
+use crate::polyhedron::CLEAR_GAP;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::DISTANCE_GAP;
@@ -24,7 +24,7 @@ use asunder_geometry::tolerance::DISTANCE_GAP;
 impl Prism<'_> {
     /// The closest points of a cuboid and the triangle across a gap, if ground rejects their direction and the two
     /// certainly share no point. `None` where the kernels must be called.
-    pub(super) fn refused_gap(&self, axes: &Axes) -> Option<Unsaid> {
+    pub(super) fn rejected_gap(&self, axes: &Axes) -> Option<ClosestPoints> {
         let (standing, facet) = (self.standing, self.facet);
         let Shape3::Cuboid(cuboid) = standing.part.shape else { return None };
         let half = cuboid.half_extents().as_dvec3();
@@ -33,7 +33,7 @@ impl Prism<'_> {
         let between = on_cuboid - on_triangle;
         let distance = between.length();
         let size = 2.0 * standing.outer_radius;
-        if distance - standing.radius <= (TELLING * size).max(self.doubt) {
+        if distance - standing.radius <= (CLEAR_GAP * size).max(self.doubt) {
             return None;
         }
         let towards = between / distance;
@@ -49,7 +49,7 @@ impl Prism<'_> {
             return None;
         }
         let ends = [place.point(on_cuboid - towards * standing.radius), place.point(on_triangle)];
-        Some(Unsaid::along(
+        Some(ClosestPoints::along(
             (self.ground, facet),
             direction,
             [distance - standing.radius, self.doubt + short.abs()],

@@ -51,14 +51,14 @@ pub(super) struct Base {
 }
 
 /// Nothing reported yet.
-const NOTHING_TOLD: [f64; 2] = [f64::INFINITY, 0.0];
+const NOTHING_RECORDED: [f64; 2] = [f64::INFINITY, 0.0];
 
 /// A normal and its points.
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
     /// The least separation reported for it so far, including points that were dropped since, and its error bound.
-    pub(super) told: [f64; 2],
+    pub(super) recorded: [f64; 2],
     /// By how much the true separation may be less because of low bends, as far as noted, in metres.
     pub(super) hidden: f64,
 }
@@ -169,32 +169,37 @@ impl Groups {
                 .iter_mut()
                 .reduce(|most, next| if next.found() > most.found() { next } else { most });
             if let Some(shallowest) = shallowest.filter(|group| group.found() > pin.separation) {
-                (shallowest.base, shallowest.told, shallowest.hidden) = (*base, NOTHING_TOLD, 0.0);
+                (shallowest.base, shallowest.recorded, shallowest.hidden) = (*base, NOTHING_RECORDED, 0.0);
                 shallowest.pins.clear();
                 shallowest.pins.push(pin);
             }
             return;
         }
         // Made empty and filled in place: it is large.
-        self.groups.push(Group { base: *base, pins: ArrayVec::new_const(), told: NOTHING_TOLD, hidden: 0.0 });
+        self.groups.push(Group {
+            base: *base,
+            pins: ArrayVec::new_const(),
+            recorded: NOTHING_RECORDED,
+            hidden: 0.0,
+        });
         if let Some(group) = self.groups.last_mut() {
             group.pins.push(pin);
         }
     }
 
     /// Records a separation along a normal, and its error bound, where the points stand for more than are kept.
-    pub(super) fn tell(&mut self, normal: DVec3, told: [f64; 2]) {
+    pub(super) fn record(&mut self, normal: DVec3, measured: [f64; 2]) {
         let group = self.groups.iter_mut().find(|group| is_same(group.base.normal, normal));
-        if let Some(group) = group.filter(|_| told[0] >= self.floor) {
-            group.tell(told);
+        if let Some(group) = group.filter(|_| measured[0] >= self.floor) {
+            group.record(measured);
         }
     }
 
     /// Sets the same for the group with the least separation.
-    pub(super) fn tell_nearest(&mut self, told: [f64; 2]) {
+    pub(super) fn record_nearest(&mut self, measured: [f64; 2]) {
         let nearest = self.groups.iter_mut().min_by(|one, other| one.found().total_cmp(&other.found()));
         if let Some(group) = nearest {
-            group.told = told;
+            group.recorded = measured;
         }
     }
 
@@ -208,8 +213,8 @@ impl Groups {
     pub(super) fn keep_within(&mut self, least: f64) {
         for group in &mut self.groups {
             group.pins.retain(|pin| pin.separation >= least - pin.doubt);
-            if group.told[0] < least - group.told[1] {
-                group.told = NOTHING_TOLD;
+            if group.recorded[0] < least - group.recorded[1] {
+                group.recorded = NOTHING_RECORDED;
             }
         }
         self.groups.retain(|group| !group.pins.is_empty());
@@ -239,10 +244,10 @@ impl Groups {
                 place += 1;
                 continue;
             };
-            let Group { base, pins, told, hidden } = self.groups.remove(place + 1 + same);
+            let Group { base, pins, recorded, hidden } = self.groups.remove(place + 1 + same);
             let group = &mut self.groups[place];
             group.base.join(&base);
-            group.tell(told);
+            group.record(recorded);
             group.hidden = group.hidden.max(hidden);
             pins.into_iter().for_each(|pin| group.add(pin, sizes));
             // Its normal may have moved near one of an earlier group.
@@ -274,15 +279,15 @@ impl Base {
 
 impl Group {
     /// Records a separation and its error bound, if it is less than that recorded so far.
-    fn tell(&mut self, told: [f64; 2]) {
-        if told[0] < self.told[0] {
-            self.told = told;
+    fn record(&mut self, measured: [f64; 2]) {
+        if measured[0] < self.recorded[0] {
+            self.recorded = measured;
         }
     }
 
     /// The least separation of its points, or the one recorded for them if that is less.
     pub(super) fn found(&self) -> f64 {
-        self.least().min(self.told[0])
+        self.least().min(self.recorded[0])
     }
 
     /// The least separation of its points.
@@ -295,7 +300,7 @@ impl Group {
             let known = self.pins[place];
             // One of them is dropped; the lesser separation is kept.
             let nearer = if pin.separation < known.separation { pin } else { known };
-            self.tell([nearer.separation, nearer.doubt]);
+            self.record([nearer.separation, nearer.doubt]);
             let is_deeper = pin.separation < known.separation - slack;
             let is_as_deep = pin.separation <= known.separation + slack;
             if is_deeper || (is_as_deep && pin.rank() < known.rank()) {
@@ -336,7 +341,7 @@ impl Group {
     fn reduce(&mut self, [slack, even]: [f64; 2]) {
         for place in 0..self.pins.len() {
             let Pin { separation, doubt, .. } = self.pins[place];
-            self.tell([separation, doubt]);
+            self.record([separation, doubt]);
         }
         if self.pins.len() < 3 {
             return;

@@ -1,15 +1,15 @@
 //! A convex part and one triangle by the general kernels, and whether ground accepts their axis.
 
-use super::Asking;
+use super::GroundQuery;
 use super::facet::{Facet, edge_number};
 use super::groups::{Base, Groups, Pin};
+use super::rejected_gaps::ClosestPoints;
 use super::standing::{Place, Standing};
-use super::unsaid::Unsaid;
 use crate::exact::Site3;
 use crate::feature::{Feature, Hint};
 use crate::ground3::OnGround;
 use crate::pair3::Part;
-use crate::polyhedron::convex::{Asked, Convex, Near, Probe, Wanted};
+use crate::polyhedron::convex::{Convex, Near, Probe, Query, Wanted};
 use crate::polyhedron::manifold::Touch;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::{Basis3, Ground, Pose3, Shape3};
@@ -30,11 +30,11 @@ pub(super) enum Met {
     /// They are further apart than the margin.
     Apart,
     /// They are not, and contact points were added; whether they share a point.
-    Told(bool),
+    Added(bool),
     /// They are not, and ground rejected the direction: whether they share a point; whether the direction is nearly the
     /// triangle's normal; the closest points if they share none; and, where they overlap and all of the triangle is
     /// level in that direction, their separation and its error bound.
-    Refused { overlapping: bool, is_own: bool, gap: Option<Unsaid>, told: Option<[f64; 2]> },
+    Rejected { overlapping: bool, is_own: bool, gap: Option<ClosestPoints>, measured: Option<[f64; 2]> },
 }
 
 impl<'a> Meeting<'a> {
@@ -47,11 +47,11 @@ impl<'a> Meeting<'a> {
         Self { part, body, ground_pose, relative, offset, summed }
     }
 
-    fn with<R>(&self, ground: Ground, number: u32, ask: impl FnOnce(&Convex) -> R) -> Option<R> {
+    fn with<R>(&self, ground: Ground, number: u32, run: impl FnOnce(&Convex) -> R) -> Option<R> {
         let shape = Shape3::Triangle(ground.triangle(number)?);
         let site = Site3 { shape: &shape, body: *self.ground_pose, part: None };
         let sites = [self.part.site(self.body), site];
-        Some(ask(&Convex::new(sites, self.relative, self.offset, self.summed)))
+        Some(run(&Convex::new(sites, self.relative, self.offset, self.summed)))
     }
 
     /// Whether the part and a triangle share a point, exactly.
@@ -65,36 +65,41 @@ impl<'a> Meeting<'a> {
         &self,
         (ground, facet): (Ground, &Facet),
         standing: &Standing,
-        asking: &Asking,
+        query: &GroundQuery,
         groups: &mut Groups,
     ) -> Met {
         let place = &standing.place;
         let mut touch = Touch::none();
         // No points are made along directions that ground rejects, as it does most often.
         let is_let_through =
-            |near: &Near| asking.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
-        let Some(near) = self.near((ground, facet), asking, is_let_through, &mut touch) else {
+            |near: &Near| query.is_plain || facet.lets_through(ground, -place.axes.turn(near.normal));
+        let Some(near) = self.near((ground, facet), query, is_let_through, &mut touch) else {
             return Met::Apart;
         };
-        let told = [near.separation.into(), near.error.into()];
-        if self.add_touch((ground, facet), place, (&touch, told), groups) {
-            return Met::Told(near.verdict.overlapping);
+        let measured = [near.separation.into(), near.error.into()];
+        if self.add_touch((ground, facet), place, (&touch, measured), groups) {
+            return Met::Added(near.verdict.overlapping);
         }
         let overlapping = near.verdict.overlapping;
         let towards = -place.axes.turn(near.normal);
-        Met::Refused {
+        Met::Rejected {
             overlapping,
             is_own: facet.is_nearly_own(towards),
-            gap: unsaid_of((ground, facet), place, &near),
-            told: (overlapping && facet.is_level_to(towards)).then_some(told),
+            gap: rejected_gap_of((ground, facet), place, &near),
+            measured: (overlapping && facet.is_level_to(towards)).then_some(measured),
         }
     }
 
     /// The closest points of the part and a triangle, if they are within the margin and share no point.
-    pub(super) fn gap(&self, of: (Ground, &Facet), place: &Place, asking: &Asking) -> Option<Unsaid> {
+    pub(super) fn gap(
+        &self,
+        of: (Ground, &Facet),
+        place: &Place,
+        query: &GroundQuery,
+    ) -> Option<ClosestPoints> {
         let mut touch = Touch::none();
-        let near = self.near(of, asking, |_| false, &mut touch)?;
-        unsaid_of(of, place, &near)
+        let near = self.near(of, query, |_| false, &mut touch)?;
+        rejected_gap_of(of, place, &near)
     }
 
     /// The closest points of the part and a triangle, if they are within the margin; where they overlap, the deepest.
@@ -103,42 +108,42 @@ impl<'a> Meeting<'a> {
         &self,
         of: (Ground, &Facet),
         place: &Place,
-        asking: &Asking,
-    ) -> Option<(DVec3, Unsaid)> {
+        query: &GroundQuery,
+    ) -> Option<(DVec3, ClosestPoints)> {
         let mut touch = Touch::none();
-        let near = self.near(of, asking, |_| true, &mut touch)?;
+        let near = self.near(of, query, |_| true, &mut touch)?;
         let towards = -place.axes.turn(near.normal);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         let [on_a, on_b] = near.closest.or(deepest.map(|point| [point.on_a, point.on_b]))?;
-        let told = [near.separation.into(), near.error.into()];
+        let measured = [near.separation.into(), near.error.into()];
         let ends = [place.point(on_a), place.point(on_b)];
-        Some((towards, Unsaid::along(of, towards, told, ends)))
+        Some((towards, ClosestPoints::along(of, towards, measured, ends)))
     }
 
     /// The kernels' result, if the two are within the margin; with contact points, where those are wanted.
     ///
     /// Across a gap the closest points are computed first, since most often ground rejects them: axes, and a hint for
-    /// the next frame, are computed only where points are made. For cuboids `refused_gap` has done as much before.
+    /// the next frame, are computed only where points are made. For cuboids `rejected_gap` has done as much before.
     fn near(
         &self,
         (ground, facet): (Ground, &Facet),
-        asking: &Asking,
+        query: &GroundQuery,
         is_wanted: impl Fn(&Near) -> bool,
         touch: &mut Touch,
     ) -> Option<Near> {
-        let asked = Asked { limit: asking.reach, hint: Hint::NONE, wanted: Wanted::Points };
-        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= asking.margin;
+        let of_triangle = Query { limit: query.reach, hint: Hint::NONE, wanted: Wanted::Points };
+        let is_near = |near: &Near| near.verdict.overlapping || near.separation <= query.margin;
         let accept = |near: &Near| is_near(near) && is_wanted(near);
         let is_cuboid = matches!(self.part.shape, Shape3::Cuboid(_));
         let probe = self.with(ground, facet.number, |convex| {
-            if !(asking.is_plain || is_cuboid) {
-                let closest = convex.probe(Asked { wanted: Wanted::Closest, ..asked });
+            if !(query.is_plain || is_cuboid) {
+                let closest = convex.probe(Query { wanted: Wanted::Closest, ..of_triangle });
                 match &closest {
                     Probe::Near(near) if near.verdict.overlapping || accept(near) => {}
                     _ => return closest,
                 }
             }
-            convex.contact(asked, accept, touch).0
+            convex.contact(of_triangle, accept, touch).0
         });
         match probe? {
             Probe::Near(near) if is_near(&near) => Some(near),
@@ -150,7 +155,7 @@ impl<'a> Meeting<'a> {
         &self,
         (ground, facet): (Ground, &Facet),
         place: &Place,
-        (touch, told): (&Touch, [f64; 2]),
+        (touch, measured): (&Touch, [f64; 2]),
         groups: &mut Groups,
     ) -> bool {
         let towards = -place.axes.turn(touch.normal);
@@ -164,25 +169,25 @@ impl<'a> Meeting<'a> {
                 on_ground: place.point(point.on_b),
                 // Where faces cross beside a corner, a point may be lower than the corner: by as much as faces are
                 // preferred by.
-                separation: point.separation.max(told[0]),
-                doubt: told[1],
+                separation: point.separation.max(measured[0]),
+                doubt: measured[1],
                 of_body: point.feature.a(),
                 of_ground: feature_on(ground, facet.number, point.feature.b()),
             };
             groups.add(&base, pin);
         }
         // Points may stand for more than there are, and then none of them need have the least separation.
-        groups.tell(towards, told);
+        groups.record(towards, measured);
         true
     }
 }
 
 /// The closest points of part and triangle, in the ground's axes; `None` where they overlap.
-fn unsaid_of(of: (Ground, &Facet), place: &Place, near: &Near) -> Option<Unsaid> {
+fn rejected_gap_of(of: (Ground, &Facet), place: &Place, near: &Near) -> Option<ClosestPoints> {
     let [on_a, on_b] = near.closest.filter(|_| !near.verdict.overlapping)?;
     let towards = -place.axes.turn(near.normal);
-    let told = [near.separation.into(), near.error.into()];
-    Some(Unsaid::along(of, towards, told, [place.point(on_a), place.point(on_b)]))
+    let measured = [near.separation.into(), near.error.into()];
+    Some(ClosestPoints::along(of, towards, measured, [place.point(on_a), place.point(on_b)]))
 }
 
 /// The ground's feature id for a feature of the triangle.

@@ -15,7 +15,7 @@
 //!
 //! Many low bends in a row may add up to more than that tolerance under one body. So the least separation of all is
 //! compared with these bounds whatever their normals. Where they leave open as much as the slack, or where there were
-//! more levels than are kept, the ground is searched again, and what was overlooked is reported (see `overlooked`).
+//! more levels than are kept, the ground is searched again, and what was overlooked is reported (see `second_search`).
 
 use super::Known;
 use super::facet::is_same;
@@ -108,16 +108,16 @@ impl Known {
     /// By how much the reported separation of a group may exceed the truth, for a part of this bounding radius. If it
     /// is the least of all (`least`), only the bound on that counts.
     pub(super) fn hidden(&self, (group, least): (&Group, f64), radius: f64) -> f64 {
-        let (normal, told) = (group.base.normal, group.told[0]);
-        if told as f32 <= least as f32 {
-            return (told - self.levels.lowest).max(0.0);
+        let (normal, reported) = (group.base.normal, group.recorded[0]);
+        if reported as f32 <= least as f32 {
+            return (reported - self.levels.lowest).max(0.0);
         }
         let most = |most: f64, level: &Level| {
-            if told - level.most > window(radius) || !is_same(level.normal, normal) {
+            if reported - level.most > window(radius) || !is_same(level.normal, normal) {
                 return most;
             }
             let slope = level.slope + sine(level.normal, normal);
-            most.max(hidden_by(slope, (told - level.least).min(window(radius)), radius))
+            most.max(hidden_by(slope, (reported - level.least).min(window(radius)), radius))
         };
         self.levels.levels.iter().fold(group.hidden, most)
     }

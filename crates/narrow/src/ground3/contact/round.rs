@@ -7,7 +7,7 @@
 //!   the direction is not the normal, nor that of a feature prominent from either side: no point   (may_add)
 //!   only now: which side the centre is on, which takes a walk around the corner                   (Facet::is_before)
 //!   the point, if ground accepts the direction                                                    (Nearest::add_point)
-//! a rejected closest point is nearer than all contact points: the general path                    (unsaid)
+//! a rejected closest point is nearer than all contact points: the general path                    (rejected_gaps)
 //! ```
 //! Answers are those of the general path to the last bit, except for needles whose normals are mostly rounding. Where
 //! rounding leaves open whether the two share a point, or the centre is on the triangle, the general path runs instead,
@@ -18,8 +18,8 @@
 use super::ball::{Nearest, nearest_to};
 use super::facet::{Facet, Furthest, is_same, widened};
 use super::standing::doubt_of;
-use super::{Asking, Known};
-use crate::ground3::ask_box::way_from;
+use super::{GroundQuery, Known};
+use crate::ground3::bounds::way_from;
 use crate::ground3::near::{OnGround, grown_around};
 use crate::pair3::Part;
 use crate::room::Room;
@@ -57,28 +57,28 @@ impl Round {
         grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
-    /// Whether it overlaps, if it is within the margin, as [`Asking::contact_of`]; `None` where the general path has to
-    /// run.
+    /// Whether it overlaps, if it is within the margin, as [`GroundQuery::contact_of`]; `None` where the general path
+    /// has to run.
     pub(super) fn contact(
         &self,
-        asking: &Asking,
+        query: &GroundQuery,
         part: Part,
         is_overlap_known: bool,
         manifolds: &mut impl Room,
     ) -> Option<Option<bool>> {
         let slack = self.slack();
         let mut known = Known::new([slack; 2]);
-        if !self.look(asking.on.ground, !manifolds.is_wanted(), &mut known) {
+        if !self.look(query.on.ground, !manifolds.is_wanted(), &mut known) {
             return None;
         }
         if !(known.overlapping || is_overlap_known && known.groups.least() >= -slack) {
             known.groups.keep_within(-slack);
         }
-        if known.is_unsaid(slack) || known.groups.least() > slack && known.shown_by.is_some() {
+        if known.has_nearer_rejected_gap(slack) || known.groups.least() > slack && known.shown_by.is_some() {
             return None;
         }
-        known.tell_unsaid(slack);
-        Some(asking.answer(part, &mut known, is_overlap_known, manifolds))
+        known.record_rejected_gap(slack);
+        Some(query.answer(part, &mut known, is_overlap_known, manifolds))
     }
 
     /// Positions that differ by no more count as the same, in metres.
@@ -156,7 +156,7 @@ impl Round {
                 nearest.add_point(ball, &facet, ground, doubt, &mut known.groups)
             };
             if !is_added {
-                known.leave_unsaid(nearest.unsaid(ball, (ground, near.number), doubt));
+                known.keep_rejected_gap(nearest.closest_points(ball, (ground, near.number), doubt));
             }
         }
         if nearest.separation < -doubt {
@@ -181,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_triangle_within_reach_is_told_to_be_beyond() {
+    fn no_triangle_within_reach_is_dropped_as_beyond() {
         let mut random = oorandom::Rand64::new(3);
         let mut number = || 2.0 * random.rand_float() - 1.0;
         let (mut near, mut parted, mut far) = (0, 0, 0);
@@ -203,13 +203,13 @@ mod tests {
             for share in [1.0 + 1e-9, 1.0, 1.0 - 1e-9, 0.999] {
                 let (radius, reach) = (0.9 * distance * share, 0.1 * distance * share);
                 let round = Round { center, radius, lengths: radius, reach };
-                let is_told = round.may_reach(&corners);
+                let is_within_reach = round.may_reach(&corners);
                 if share >= 1.0 {
-                    assert!(is_told, "{distance} from {center}, {share}: {corners:?}");
+                    assert!(is_within_reach, "{distance} from {center}, {share}: {corners:?}");
                     near += 1;
                 } else if share == 0.999 {
                     far += 1;
-                    parted += usize::from(!is_told);
+                    parted += usize::from(!is_within_reach);
                 }
             }
         }

@@ -43,14 +43,14 @@ impl Numbers {
     }
 }
 
-fn asked(pair: &Pair3, is_plain: bool) -> (Option<bool>, Vec<Manifold3>) {
+fn contacts_of(pair: &Pair3, is_plain: bool) -> (Option<bool>, Vec<Manifold3>) {
     let mut manifolds = Vec::new();
     let found = contact_by(pair, 0.02, &mut Some(&mut manifolds), is_plain);
     (found.expect("one is ground"), manifolds)
 }
 
 #[test]
-fn short_ways_say_what_the_general_way_says() {
+fn fast_paths_agree_with_the_general_path() {
     let mut numbers = Numbers::new(8);
     let (mut touching, mut apart, mut points) = (0, 0, 0);
     for round in 0..6000 {
@@ -58,24 +58,24 @@ fn short_ways_say_what_the_general_way_says() {
         let at = Pose3::new(numbers.vector() * DVec3::new(1.5, 0.8, 1.5), numbers.rotation()).unwrap();
         let under = Pose3::new(numbers.vector() * [0.0, 1e-3][round % 2], Quat::IDENTITY).unwrap();
         let pair = Pair3::new(&body, &at, &ground, &under);
-        let ((short, by_short), (plain, by_plain)) = (asked(&pair, false), asked(&pair, true));
-        let told = format!("{round}: {body:?} at {at:?}\n{by_short:#?}\n{by_plain:#?}");
-        assert_eq!(short, plain, "{told}");
-        assert_eq!(by_short.len(), by_plain.len(), "{told}");
+        let ((short, by_short), (plain, by_plain)) = (contacts_of(&pair, false), contacts_of(&pair, true));
+        let context = format!("{round}: {body:?} at {at:?}\n{by_short:#?}\n{by_plain:#?}");
+        assert_eq!(short, plain, "{context}");
+        assert_eq!(by_short.len(), by_plain.len(), "{context}");
         for (one, other) in by_short.iter().zip(&by_plain) {
-            assert_eq!([one.part_a, one.part_b], [other.part_a, other.part_b], "{told}");
-            assert!((one.normal - other.normal).length() <= 1e-6, "{told}");
-            assert!((one.separation - other.separation).abs() <= one.error + other.error, "{told}");
-            assert_eq!(one.points.len(), other.points.len(), "{told}");
+            assert_eq!([one.part_a, one.part_b], [other.part_a, other.part_b], "{context}");
+            assert!((one.normal - other.normal).length() <= 1e-6, "{context}");
+            assert!((one.separation - other.separation).abs() <= one.error + other.error, "{context}");
+            assert_eq!(one.points.len(), other.points.len(), "{context}");
             for (one, other) in one.points.iter().zip(&other.points) {
-                assert_eq!(one.feature, other.feature, "{told}");
-                assert!((one.anchor_a - other.anchor_a).length() <= 1e-5, "{told}");
-                assert!((one.anchor_b - other.anchor_b).length() <= 1e-5, "{told}");
+                assert_eq!(one.feature, other.feature, "{context}");
+                assert!((one.anchor_a - other.anchor_a).length() <= 1e-5, "{context}");
+                assert!((one.anchor_b - other.anchor_b).length() <= 1e-5, "{context}");
             }
             points += one.points.len();
         }
         // For spheres, to the last bit.
-        assert!(!matches!(body, Shape3::Sphere(_)) || by_short == by_plain, "{told}");
+        assert!(!matches!(body, Shape3::Sphere(_)) || by_short == by_plain, "{context}");
         touching += usize::from(short == Some(true));
         apart += usize::from(short.is_none());
     }

@@ -4,7 +4,7 @@
 //! a triangle that is near only because of the margin: gaps, no penetration                      (may_meet)
 //! a triangle behind whose plane the part is deep: its penetrating points are found as without a margin:
 //!     sides that are near only because of the margin do not count: the normal gives these, kernels the gaps   (closer)
-//!     only contacts that touch cover or free it, where they would without a margin              (outstanding, refused)
+//!     only contacts that touch cover or free it, where they would without a margin          (prominent_near, rejected)
 //! at last, where the part is deep in a flat patch, and reaches further behind its plane than was found:
 //!     deeper points over triangles of the patch that it does not meet, and over their sides on its rim (rim)
 //!     where nothing is deep along other normals, also over the rim of triangles that it meets
@@ -25,9 +25,9 @@ use super::ball::nearest_to;
 use super::facet::{front_of, is_same};
 use super::groups::{Group, Groups, MOST_GROUPS, MOST_POINTS, Pin};
 use super::prism::Prism;
-use super::refused::Heard;
+use super::rejected::LeastAlong;
 use super::standing::Standing;
-use super::{Known, Seen};
+use super::{Known, PartTest};
 use crate::feature::Feature;
 use crate::pair3::reach_of;
 use arrayvec::ArrayVec;
@@ -43,7 +43,7 @@ pub(super) fn touching() -> f64 {
     reach_of(0.0)
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// The separation below which points over a triangle count as deep, in metres.
     #[inline]
     pub(super) fn deep_below(&self, prism: &Prism) -> f64 {
@@ -99,7 +99,7 @@ impl Seen<'_> {
     #[inline(never)]
     fn add_rest_of_patches(&self, known: &mut Known) {
         let (slack, turned) = (self.standing.slack, self.standing.turned);
-        let (mut whole, [mut low, mut high]) = (ArrayVec::<Heard, MOST_GROUPS>::new(), turned);
+        let (mut whole, [mut low, mut high]) = (ArrayVec::<LeastAlong, MOST_GROUPS>::new(), turned);
         for group in known.groups.iter().filter(|group| self.may_be_deeper(group)) {
             whole.push((group.base.normal, group.found()));
             // Where it meets no triangle, all of the part may be behind the plane, under triangles outside its box.
@@ -107,15 +107,15 @@ impl Seen<'_> {
             (low, high) = (low.min(turned[0] + up), high.max(turned[1] + up));
         }
         let is_alone = known.groups.iter().filter(|group| group.found() < -slack).count() == 1;
-        let bounds = self.asking.on.bounds_around(&self.standing.part, [low, high], touching());
+        let bounds = self.query.on.bounds_around(&self.standing.part, [low, high], touching());
         for &by in &whole {
             self.add_rest_along(&bounds, by, is_alone, known);
         }
     }
 
     /// The same along one normal, over triangles near a box.
-    fn add_rest_along(&self, bounds: &Aabb3, by: Heard, is_alone: bool, known: &mut Known) {
-        let ground = self.asking.on.ground;
+    fn add_rest_along(&self, bounds: &Aabb3, by: LeastAlong, is_alone: bool, known: &mut Known) {
+        let ground = self.query.on.ground;
         let mut deep = known.groups.deep_along(ground, by.0);
         // A corner's feature id says which triangles it belongs to, but not which patch: that is looked up first.
         let mut patches = ArrayVec::<u32, MOST_PATCHES>::new();
@@ -139,7 +139,13 @@ impl Seen<'_> {
 
     /// Adds deeper points over a triangle of a patch that the part is deep in, along the triangle's normal; for a
     /// triangle that the part meets, only where nothing is deep along other normals.
-    fn add_of_whole(&self, near: &NearTriangle, (normal, found): Heard, is_alone: bool, known: &mut Known) {
+    fn add_of_whole(
+        &self,
+        near: &NearTriangle,
+        (normal, found): LeastAlong,
+        is_alone: bool,
+        known: &mut Known,
+    ) {
         if let Some(plane) = self.plane_towards(near.number, normal)
             && is_same(plane.facet.normal, normal)
         {

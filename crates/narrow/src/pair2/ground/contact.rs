@@ -16,10 +16,10 @@ use super::patches::{Patch, Patches};
 use crate::answer::Manifold2;
 use crate::counted::count_step;
 use crate::feature::Hint;
-use crate::ground2::{Surface, Told, Zone};
+use crate::ground2::{Region, Surface, Zone};
 use crate::lists::{MANIFOLDS2, with_list};
 use crate::polygon::manifold::Point;
-use crate::polygon::measure::{Asked, Near, Probe};
+use crate::polygon::measure::{Near, Probe, Query};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::tolerance::STRAIGHT;
@@ -41,7 +41,7 @@ struct Standing<'p> {
 /// Whether a run's segments overlap the part, as far as it is known.
 #[derive(Clone, Copy)]
 enum Overlap {
-    Told(bool),
+    Decided(bool),
     /// The separation is within what the segments may lie off the run: each has to be tested.
     Open,
 }
@@ -91,12 +91,13 @@ impl Standing<'_> {
         let mut overlapping = false;
         let _ = self.chain.visit_where(self.is_near(&zone), |segment| {
             let Some(run) = self.chain.run_of(segment) else { return ControlFlow::Continue(()) };
-            let seen = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
-            let overlap = seen.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
+            let overlap_found = known.into_iter().flatten().find(|(other, _)| other.first() == run.first());
+            let overlap =
+                overlap_found.map_or_else(|| self.on_run(&run, &mut patches), |(_, overlap)| overlap);
             // The last run of a closed chain may be the first one again.
             known = [known[0].or(Some((run, overlap))), Some((run, overlap))];
             overlapping |= match overlap {
-                Overlap::Told(overlapping) => overlapping,
+                Overlap::Decided(overlapping) => overlapping,
                 Overlap::Open if overlapping => true,
                 Overlap::Open => {
                     let verdict = |parts: Parts| parts.convex.verdict().overlapping;
@@ -127,7 +128,7 @@ impl Standing<'_> {
     /// Whether a segment of a run overlaps the part. Asked only where that must tell a part deep in the run's face from
     /// one behind the face, past the run's end.
     fn is_overlapped(&self, run: &Run, overlap: &mut Overlap) -> bool {
-        if let Overlap::Told(overlapping) = *overlap {
+        if let Overlap::Decided(overlapping) = *overlap {
             return overlapping;
         }
         let zone = self.pair.zone(self.side, &self.part);
@@ -141,7 +142,7 @@ impl Standing<'_> {
             }
             ControlFlow::Continue(())
         });
-        *overlap = Overlap::Told(met.is_break());
+        *overlap = Overlap::Decided(met.is_break());
         met.is_break()
     }
 
@@ -154,13 +155,13 @@ impl Standing<'_> {
         let turn = if self.side == 0 { &pair.turn_a } else { &pair.turn_b };
         let center = self.part.middle(body_at);
         let Some(surface) = Surface::new(self.chain, run, (turn, chain_at), center) else {
-            return Overlap::Told(false);
+            return Overlap::Decided(false);
         };
-        let Some(chord) = self.chain.chord(run).map(Shape2::Segment) else { return Overlap::Told(false) };
+        let Some(chord) = self.chain.chord(run).map(Shape2::Segment) else { return Overlap::Decided(false) };
         let parts = pair.ordered(self.side, Part::segment(run.first(), &chord, turn), self.part);
         let limit = self.limit + run.unevenness();
-        let Probe::Near(near) = parts.convex.probe(&Asked { limit, hint: Hint::NONE, points: true }) else {
-            return Overlap::Told(false);
+        let Probe::Near(near) = parts.convex.probe(&Query { limit, hint: Hint::NONE, points: true }) else {
+            return Overlap::Decided(false);
         };
         let mut overlap = overlap(&near, run);
         let Some(touch) = &near.touch else { return overlap };
@@ -170,11 +171,11 @@ impl Standing<'_> {
         };
         let kernels = || patch(touch.normal, &touch.points);
         let away = if self.side == 0 { touch.normal } else { -touch.normal };
-        let told = if center.is_none() { Told::Corner } else { surface.tell(away) };
-        let (made, spare) = match told {
-            Told::Corner => (kernels(), None),
-            Told::Beyond(_) => (None, kernels()),
-            Told::Face | Told::Inner => {
+        let region = if center.is_none() { Region::Corner } else { surface.region_of(away) };
+        let (made, spare) = match region {
+            Region::Corner => (kernels(), None),
+            Region::Beyond(_) => (None, kernels()),
+            Region::Face | Region::Inner => {
                 let edge = (surface.edge(), surface.normal);
                 let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
@@ -184,7 +185,7 @@ impl Standing<'_> {
                     !is_beyond && (!over.is_deep() || self.is_overlapped(run, &mut overlap))
                 });
                 // At a corner that is almost straight, rounding may find nothing over either face.
-                let is_face = told == Told::Face;
+                let is_face = region == Region::Face;
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
             }
         };
@@ -207,9 +208,9 @@ fn is_apart(near: &Near, run: &Run) -> bool {
 /// What testing a run as one segment tells about overlap with its segments.
 fn overlap(near: &Near, run: &Run) -> Overlap {
     if run.unevenness() == 0.0 {
-        Overlap::Told(near.verdict.overlapping)
+        Overlap::Decided(near.verdict.overlapping)
     } else if is_apart(near, run) {
-        Overlap::Told(false)
+        Overlap::Decided(false)
     } else {
         Overlap::Open
     }

@@ -2,7 +2,7 @@ use super::*;
 use crate::answer::{Closest3, Measured3, Separation3};
 use crate::feature::Hint;
 use crate::numbers::Numbers;
-use crate::polyhedron::convex::{Asked, Probe, Wanted};
+use crate::polyhedron::convex::{Probe, Query, Wanted};
 use asunder_geometry::Sphere;
 use asunder_geometry::glam::Quat;
 
@@ -82,7 +82,7 @@ fn measured(pair: &Pair3) -> Measured3 {
 }
 
 #[test]
-fn the_closed_form_says_what_the_search_says() {
+fn the_closed_form_agrees_with_the_search() {
     let (mut inside, mut gaps, mut named) = (0, 0, 0);
     for case in cases() {
         let pair = case.pair();
@@ -91,8 +91,8 @@ fn the_closed_form_says_what_the_search_says() {
         let parts = [(pair.shape_a, &bases[0]), (pair.shape_b, &bases[1])];
         let [a, b] = parts.map(|(shape, basis)| Part::whole(shape, basis));
         let convex = &pair.parts(&bases, a, b).convex;
-        let asked = Asked { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Points };
-        let (probe, touch) = convex.contact_of_solids(asked);
+        let query = Query { limit: f64::INFINITY, hint: Hint::NONE, wanted: Wanted::Points };
+        let (probe, touch) = convex.contact_of_solids(query);
         let Probe::Near(near) = probe else { unreachable!("no limit") };
         let off = (f64::from(found.separation) - f64::from(near.separation)).abs();
         assert!(
@@ -118,16 +118,16 @@ fn the_closed_form_says_what_the_search_says() {
 }
 
 #[test]
-fn the_general_path_tells_the_same_bits() {
+fn the_general_path_gives_the_same_bits() {
     for case in cases() {
         for pair in [case.pair(), case.swapped()] {
             let bases = pair.bases();
             let parts = [(pair.shape_a, &bases[0]), (pair.shape_b, &bases[1])];
             let [a, b] = parts.map(|(shape, basis)| Part::whole(shape, basis));
             let mut deepest = crate::room::Deepest(None);
-            let asked = Asked { limit: reach_of(0.5), hint: Hint::NONE, wanted: Wanted::Points };
+            let query = Query { limit: reach_of(0.5), hint: Hint::NONE, wanted: Wanted::Points };
             let parts = pair.parts(&bases, a, b);
-            let _ = parts.contact(asked, 0.5, &mut deepest);
+            let _ = parts.contact(query, 0.5, &mut deepest);
             assert_eq!(parts.convex.verdict(), pair.verdict(), "{case:?}");
             let manifold = pair.manifold(0.5);
             assert_eq!(manifold.is_some(), deepest.0.is_some(), "{case:?}");
@@ -220,7 +220,7 @@ fn the_middle_looks_out_of_the_lowest_of_the_nearest_faces() {
 }
 
 #[test]
-fn touching_is_told_exactly_on_faces_edges_and_corners() {
+fn touching_is_decided_exactly_on_faces_edges_and_corners() {
     let half = DVec3::new(1.0, 2.0, 3.0);
     let cuboid = Shape3::from(Cuboid::from_half_extents(half.as_vec3()).unwrap());
     let at = Pose3::IDENTITY;

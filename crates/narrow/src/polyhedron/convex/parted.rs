@@ -5,7 +5,7 @@
 //! edges of both shapes for the kernels took three times as long as those. Here f32 lanes bound the projections; the
 //! vertices are not needed.
 
-use super::{Asked, Convex, Probe};
+use super::{Convex, Probe, Query};
 use crate::polyhedron::octets::bound_of_reach;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
@@ -14,13 +14,13 @@ impl Convex<'_> {
     /// The answer of [`Convex::probe`] for hulls and cuboids that the hinted direction separates by more than the
     /// limit; `None` for all others. Cost: linear in the vertices.
     #[inline]
-    pub(super) fn parted_as_before(&self, asked: Asked) -> Option<Probe> {
-        let direction = asked.hint.direction()?;
+    pub(super) fn parted_as_before(&self, query: Query) -> Option<Probe> {
+        let direction = query.hint.direction()?;
         let of_a = most_of(self.shape_a, direction)?;
         let of_b = most_of(self.shape_b, self.relative.turn_back(-direction))?;
         let separation = direction.dot(self.offset) - of_b - of_a;
-        let beyond = asked.limit + self.radii + self.precision.projection();
-        (separation > beyond).then(|| self.beyond(separation, asked.hint))
+        let beyond = query.limit + self.radii + self.precision.projection();
+        (separation > beyond).then(|| self.beyond(separation, query.hint))
     }
 }
 
@@ -64,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_direction_parts_is_told_as_the_kernels_tell_it() {
+    fn bounds_along_a_direction_agree_with_the_kernels() {
         let mut random = Random(0x9A47_ED0B_EF03);
         let (mut parted, mut open) = (0, 0);
         for case in 0..20_000 {
@@ -78,25 +78,25 @@ mod tests {
             let direction =
                 pose_a.turn_back(random.vector().as_dvec3() * 0.2 + away.as_dvec3() / f64::from(size));
             let limit = f64::from(size * 0.3 * random.number().abs());
-            let asked = Asked { limit, hint: Hint::towards(direction.normalize()), wanted: Wanted::Points };
+            let query = Query { limit, hint: Hint::towards(direction.normalize()), wanted: Wanted::Points };
             let Separation3::Measured(truth) =
                 Pair3::new(&shape_a, &pose_a, &shape_b, &pose_b).separation(f32::INFINITY)
             else {
                 panic!("no limit was given");
             };
-            let told = |probe: Probe| match probe {
+            let bound_or_none = |probe: Probe| match probe {
                 Probe::Beyond(at_least, _) => Some(f64::from(at_least)),
                 Probe::Near(_) => None,
             };
-            match pair.parted_as_before(asked).map(told) {
+            match pair.parted_as_before(query).map(bound_or_none) {
                 Some(at_least) => {
                     let at_least = at_least.expect("nothing is near");
                     parted += 1;
                     assert!(at_least > limit * (1.0 - 1e-6), "case {case}: {at_least} of {limit}");
                     assert!(at_least <= f64::from(truth.separation) + f64::from(truth.error), "case {case}");
                     // The kernels' bound differs from it by no more than the error of f32 lanes.
-                    let theirs =
-                        told(pair.with_solids(|a, b| pair.probe_solids(a, b, asked))).expect("beyond, too");
+                    let theirs = bound_or_none(pair.with_solids(|a, b| pair.probe_solids(a, b, query)))
+                        .expect("beyond, too");
                     assert!(
                         (theirs - at_least).abs() <= 4e-6 * f64::from(size),
                         "case {case}: {theirs}, {at_least}"

@@ -13,13 +13,13 @@
 //! distinguishes them comes first, and the axes, of which there are thousands, only when the depth is wanted. In a gap
 //! no contact is built on the axes of edges, and only those of faces are evaluated.
 
-use super::{Asked, Convex, Evidence, Near, Probe, Wanted};
+use super::{Convex, Evidence, Near, Probe, Query, Wanted};
 use crate::answer::{Tier, Verdict};
 use crate::exact::{self, Corner};
 use crate::feature::Hint;
 use crate::polyhedron::cuboids::{Cuboids, Outcome};
 use crate::polyhedron::distance::{Close, Reached, Until, Witness, distance};
-use crate::polyhedron::manifold::{Ask, nearest_edges, touch};
+use crate::polyhedron::manifold::{TouchInput, nearest_edges, touch};
 use crate::polyhedron::portal::{self, Found};
 use crate::polyhedron::sat::{
     Axes, Axis, Ended, Hinted, Search, across_edges, face_axes, first_axis, hint_of, hint_to, separating_axes,
@@ -41,34 +41,34 @@ const OVERLAPPING: Verdict = Verdict { overlapping: true, tier: Tier::Bound };
 const DOUBLE_OVERLAP: Verdict = Verdict { overlapping: true, tier: Tier::Double };
 
 impl Convex<'_> {
-    pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, asked: Asked) -> Probe {
-        let beyond = asked.limit + self.radii + self.precision.projection();
+    pub(super) fn probe_solids(&self, a: &Solid, b: &Solid, query: Query) -> Probe {
+        let beyond = query.limit + self.radii + self.precision.projection();
         // For hulls and cuboids, bounds in f32 left this open (`parted`); for all others it is the first test.
-        if let Some(direction) = asked.hint.direction() {
+        if let Some(direction) = query.hint.direction() {
             let separation = -b.support(-direction).reach - a.support(direction).reach;
             if separation > beyond {
-                return self.beyond(separation, asked.hint);
+                return self.beyond(separation, query.hint);
             }
         }
-        let hinted = Hinted::new((a, b), asked.hint, &self.precision);
+        let hinted = Hinted::new((a, b), query.hint, &self.precision);
         if let Some(Hinted { axis, .. }) = &hinted
             && axis.separation > beyond
         {
-            return self.beyond(axis.separation, asked.hint);
+            return self.beyond(axis.separation, query.hint);
         }
-        if asked.wanted == Wanted::Points
-            && let Some((axes, witness)) = self.told_by((a, b), asked.hint, hinted.as_ref())
+        if query.wanted == Wanted::Points
+            && let Some((axes, witness)) = self.gap_by_hint((a, b), query.hint, hinted.as_ref())
         {
-            return self.told_gap((a, b), axes, witness, asked.hint);
+            return self.probe_gap_by_hint((a, b), axes, witness, query.hint);
         }
         // Closest points come from the distance, not from axes. Only pairs that nearly touch come here for them: others
         // took the fastest path (`apart`).
-        if asked.wanted != Wanted::Closest
+        if query.wanted != Wanted::Closest
             && let Some(cuboids) = self.cuboids()
         {
-            return self.probe_cuboids(&cuboids, (a, b), beyond, asked.wanted);
+            return self.probe_cuboids(&cuboids, (a, b), beyond, query.wanted);
         }
-        let hinted = hinted.or_else(|| self.first_axis((a, b), asked.wanted));
+        let hinted = hinted.or_else(|| self.first_axis((a, b), query.wanted));
         if let Some(hinted) = &hinted {
             if hinted.axis.separation > beyond {
                 return self.beyond(hinted.axis.separation, hint_of(&hinted.axis));
@@ -83,7 +83,7 @@ impl Convex<'_> {
         }
         let reached = match portal::search(a, b, beyond, &self.precision) {
             Found::Beyond(direction, separation) => return self.beyond(separation, Hint::towards(direction)),
-            Found::Overlap if asked.wanted == Wanted::Closest => return self.just_overlapping(),
+            Found::Overlap if query.wanted == Wanted::Closest => return self.just_overlapping(),
             Found::Overlap => return self.overlap_by_axes((a, b), hinted),
             Found::Nothing(direction) => {
                 let until = Until { beyond, ..Until::met(&self.precision) };
@@ -91,7 +91,7 @@ impl Convex<'_> {
             }
         };
         match reached {
-            Reached::Origin(Close { is_proved: true, .. }) if asked.wanted == Wanted::Closest => {
+            Reached::Origin(Close { is_proved: true, .. }) if query.wanted == Wanted::Closest => {
                 self.just_overlapping()
             }
             Reached::Between(witness) if witness.at_least > beyond => {
@@ -101,20 +101,20 @@ impl Convex<'_> {
                 let (verdict, is_gap) = self.conclude_gap(&witness);
                 if !is_gap {
                     let axes = self.all_axes(a, b, f64::NEG_INFINITY);
-                    return self.probe_close((a, b), axes, (verdict, Cores::Within(0.0)), asked.wanted);
+                    return self.probe_close((a, b), axes, (verdict, Cores::Within(0.0)), query.wanted);
                 }
-                if asked.wanted != Wanted::Points {
+                if query.wanted != Wanted::Points {
                     let hint = Hint::towards(witness.normal);
                     return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
                 }
                 // The axes show which faces lie opposite each other.
                 let axes = self.face_axes(a, b, witness.at_least);
-                self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), asked.wanted)
+                self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), query.wanted)
             }
             reached => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
                 let closer = self.closer(reached, Some(axes.best()));
-                self.probe_close((a, b), axes, closer, asked.wanted)
+                self.probe_close((a, b), axes, closer, query.wanted)
             }
         }
     }
@@ -203,8 +203,8 @@ impl Convex<'_> {
                 // own hint.
                 if wanted == Wanted::Points {
                     let hinted = Hinted::new((a, b), hint, &self.precision);
-                    if let Some((axes, witness)) = self.told_by((a, b), hint, hinted.as_ref()) {
-                        return self.told_gap((a, b), axes, witness, hint);
+                    if let Some((axes, witness)) = self.gap_by_hint((a, b), hint, hinted.as_ref()) {
+                        return self.probe_gap_by_hint((a, b), axes, witness, hint);
                     }
                 }
                 self.gap_of_cores(axes, verdict, witness, hint)
@@ -215,7 +215,7 @@ impl Convex<'_> {
     }
 
     /// The gap that a hint finds by itself, and its axis.
-    fn told_by(
+    fn gap_by_hint(
         &self,
         (a, b): (&Solid, &Solid),
         hint: Hint,
@@ -228,7 +228,7 @@ impl Convex<'_> {
     }
 
     /// The answer for a gap that a hint found. The hint is kept: the next answer comes from the same one.
-    fn told_gap(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
+    fn probe_gap_by_hint(&self, (a, b): (&Solid, &Solid), axes: Axes, witness: Witness, hint: Hint) -> Probe {
         match self.conclude_gap(&witness) {
             (verdict, true) => self.gap_of_cores(axes, verdict, witness, hint),
             // Not reached: a gap between the cores that a hint finds is wider than rounding.
@@ -290,7 +290,7 @@ impl Convex<'_> {
 
     /// Whether solids overlap, other than two cuboids.
     pub(super) fn verdict_of_solids(&self, a: &Solid, b: &Solid) -> Verdict {
-        let until = self.until_told();
+        let until = self.until_decided();
         let bound = |overlapping: bool| Verdict { overlapping, tier: Tier::Bound };
         match portal::search(a, b, until.beyond, &self.precision) {
             Found::Beyond(..) => bound(false),
@@ -317,7 +317,7 @@ impl Convex<'_> {
     }
 
     /// When the distance iteration may stop for an overlap test: once it shows whether the radii close the gap.
-    fn until_told(&self) -> Until<'_> {
+    fn until_decided(&self) -> Until<'_> {
         let doubt = self.precision.projection();
         Until { beyond: self.radii + doubt, within: self.radii - 2.0 * doubt, precision: &self.precision }
     }
@@ -416,8 +416,9 @@ impl Convex<'_> {
         // The very deepest corner is wanted here, not one that is nearly as deep.
         let even = preference;
         let near = self.same_place();
-        let ask = Ask { axes: &axes, witness: None, margin: 0.0, preference, even, near, last: None };
-        let touch = touch(a, b, &ask);
+        let input =
+            TouchInput { axes: &axes, witness: None, margin: 0.0, preference, even, near, last: None };
+        let touch = touch(a, b, &input);
         let deepest = touch.points.iter().min_by(|one, other| one.separation.total_cmp(&other.separation));
         Probe::Near(Near {
             verdict,

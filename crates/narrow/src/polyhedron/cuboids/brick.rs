@@ -191,13 +191,13 @@ mod tests {
             match (pair.gap(f64::INFINITY), reached) {
                 (Gap::Apart(apart_by), Reached::Between(Witness { distance, at_least, .. })) => {
                     let radii = f64::from(shapes[0].radius()) + f64::from(shapes[1].radius());
-                    let (told, error) = (f64::from(apart_by.separation), f64::from(apart_by.error));
+                    let (separation, error) = (f64::from(apart_by.separation), f64::from(apart_by.error));
                     assert!(
-                        told + error >= at_least - radii && told - error <= distance - radii,
+                        separation + error >= at_least - radii && separation - error <= distance - radii,
                         "case {case}"
                     );
                     let [on_a, on_b] = apart_by.points;
-                    assert!(((on_b - on_a).length() - told).abs() <= error, "case {case}");
+                    assert!(((on_b - on_a).length() - separation).abs() <= error, "case {case}");
                     assert!(((on_b - on_a).normalize() - apart_by.normal).length() < 1e-5, "case {case}");
                     apart += 1;
                 }

@@ -106,19 +106,19 @@ impl Touching<'_> {
         self.best.separation() + self.placed.preference
     }
 
-    /// Passes the patch of a face and its incident face to `ask`. A patch is large, and is not moved from where it is
+    /// Passes the patch of a face and its incident face to `run`. A patch is large, and is not moved from where it is
     /// made.
     #[inline(always)]
     pub(super) fn over_face<R>(
         &self,
         face: usize,
         is_b: bool,
-        ask: impl FnOnce(&Patch) -> Option<R>,
+        run: impl FnOnce(&Patch) -> Option<R>,
     ) -> Option<R> {
         let (slack, near, deep) = (self.placed.preference, self.placed.near, self.deep());
         let within = if deep > self.margin { deep } else { self.margin };
         let (reference, faces) = self.placed.faces(is_b, face, slack)?;
-        ask(&wide::patch(&faces, &Wanted { reference, within, slack, near }))
+        run(&wide::patch(&faces, &Wanted { reference, within, slack, near }))
     }
 
     /// Points of the faces beside two edges, if they nearly face each other; else the point where the edges cross.

@@ -28,10 +28,10 @@
 //! here: all fifteen cost 12 ns.
 
 use super::super::sat::AxisOf;
-use super::asked::measured;
 use super::fifteen::{Fifteen, closed_form};
 use super::graded::Graded;
 use super::placed::{Placed, Posed, Size};
+use super::queries::measured;
 use super::settled::{Best, parted_by};
 use super::wide;
 use crate::answer::Separation3;
@@ -47,7 +47,7 @@ type Row<T = f64> = [T; LANES];
 
 /// The input for eight pairs.
 #[derive(Clone)]
-pub(super) struct Asked8 {
+pub(super) struct Input8 {
     rotations: [[Row<f32>; 4]; 2],
     halves: [[Row<f32>; 3]; 2],
     between: [Row; 3],
@@ -60,12 +60,12 @@ pub(super) struct Asked8 {
 /// The input and the results of eight pairs.
 #[derive(Clone)]
 pub(crate) struct Eight {
-    asked: Asked8,
-    seen: Seen8,
+    input: Input8,
+    results: Results8,
 }
 
 #[derive(Clone)]
-pub(super) struct Seen8 {
+pub(super) struct Results8 {
     basis: [Row; 9],
     relative: [Row; 9],
     offset: [Row; 3],
@@ -84,14 +84,14 @@ pub(super) struct Seen8 {
 impl Eight {
     /// To be filled in.
     pub(crate) const BLANK: Self = Self {
-        asked: Asked8 {
+        input: Input8 {
             rotations: [[[0.0; LANES]; 4]; 2],
             halves: [[[0.0; LANES]; 3]; 2],
             between: [[0.0; LANES]; 3],
             sizes: [0.0; LANES],
             limits: [0.0; LANES],
         },
-        seen: Seen8 {
+        results: Results8 {
             basis: [[0.0; LANES]; 9],
             relative: [[0.0; LANES]; 9],
             offset: [[0.0; LANES]; 3],
@@ -110,40 +110,44 @@ impl Eight {
     #[inline(always)]
     pub(crate) fn put(&mut self, lane: usize, posed: &Posed, margin: f64) {
         let k = lane % LANES;
-        let asked = &mut self.asked;
+        let input = &mut self.input;
         for side in 0..2 {
             let rotation = posed.poses[side].rotation().to_array();
             let half = posed.cuboids[side].half_extents().to_array();
-            write(&mut asked.rotations[side], rotation, k);
-            write(&mut asked.halves[side], half, k);
+            write(&mut input.rotations[side], rotation, k);
+            write(&mut input.halves[side], half, k);
         }
-        write(&mut asked.between, posed.between().to_array(), k);
+        write(&mut input.between, posed.between().to_array(), k);
         let size = Size::of(posed);
-        asked.sizes[k] = size.cores + size.radii;
-        asked.limits[k] = margin + size.radii;
+        input.sizes[k] = size.cores + size.radii;
+        input.limits[k] = margin + size.radii;
     }
 
     /// Computes all lanes, and grades the axes if `GRADED`. Grading takes half as long again, and pays where only a
     /// number is asked for. Lanes that hold no pair have no meaning.
     #[inline]
     pub(crate) fn look<const GRADED: bool>(&mut self) {
-        wide::look::<GRADED>(&self.asked, &mut self.seen);
+        wide::look::<GRADED>(&self.input, &mut self.results);
     }
 
     /// The axis that separates a pair for certain: as [`Placed::parted`].
     #[inline(always)]
     pub(crate) fn parted(&self, lane: usize) -> Option<AxisOf> {
-        let (k, seen) = (lane % LANES, &self.seen);
-        parted_by(seen.parted[k], |axis| seen.offset[axis][k] >= 0.0, |axis| seen.ahead[axis][k] >= 0.0)
+        let (k, results) = (lane % LANES, &self.results);
+        parted_by(
+            results.parted[k],
+            |axis| results.offset[axis][k] >= 0.0,
+            |axis| results.ahead[axis][k] >= 0.0,
+        )
     }
 
     /// A lower bound on the separation from the best face, where a face separates the pair: as in [`Placed::settle`].
     #[inline(always)]
     pub(super) fn parted_by_face(&self, lane: usize, posed: &Posed) -> Option<f32> {
-        let (k, seen) = (lane % LANES, &self.seen);
-        let separation = match seen.parted[k] as i32 {
-            n @ 0..3 => seen.faces_a[n as usize][k],
-            n @ 3..6 => seen.faces_b[n as usize - 3][k],
+        let (k, results) = (lane % LANES, &self.results);
+        let separation = match results.parted[k] as i32 {
+            n @ 0..3 => results.faces_a[n as usize][k],
+            n @ 3..6 => results.faces_b[n as usize - 3][k],
             _ => return None,
         };
         let (radii, precision) = self.precision(k, posed);
@@ -153,12 +157,12 @@ impl Eight {
     /// The separation of a pair whose best axes are known.
     #[inline(always)]
     pub(super) fn measured(&self, lane: usize, posed: &Posed, best: &Best) -> Separation3 {
-        let (k, seen) = (lane % LANES, &self.seen);
-        let [x, y, z] = &seen.offset;
-        let relative = |c: usize| seen.relative[c % 9][k];
+        let (k, results) = (lane % LANES, &self.results);
+        let [x, y, z] = &results.offset;
+        let relative = |c: usize| results.relative[c % 9][k];
         let axis_b = |j: usize| DVec3::new(relative(3 * j), relative(3 * j + 1), relative(3 * j + 2));
-        let ahead = |j: usize| seen.ahead[j % 3][k];
-        let normal = best.normal(&basis(&seen.basis, k), axis_b, DVec3::new(x[k], y[k], z[k]), ahead);
+        let ahead = |j: usize| results.ahead[j % 3][k];
+        let normal = best.normal(&basis(&results.basis, k), axis_b, DVec3::new(x[k], y[k], z[k]), ahead);
         let (radii, precision) = self.precision(k, posed);
         measured(best, normal, radii, &precision)
     }
@@ -167,22 +171,22 @@ impl Eight {
     #[inline(always)]
     fn precision(&self, k: usize, posed: &Posed) -> (f64, Precision) {
         let Size { cores, radii, .. } = Size::of(posed);
-        let [x, y, z] = &self.seen.offset;
+        let [x, y, z] = &self.results.offset;
         (radii, Size::precision(cores, cores + radii, DVec3::new(x[k], y[k], z[k])))
     }
 
     /// Whether a pair's cores overlap for certain.
     #[inline(always)]
     pub(crate) fn is_deep(&self, lane: usize) -> bool {
-        self.seen.deep[lane % LANES] < 0.0
+        self.results.deep[lane % LANES] < 0.0
     }
 
     /// The best axes of a pair that no axis separates, if they were graded and that settled them.
     #[inline(always)]
     pub(super) fn best(&self, lane: usize) -> Option<Best> {
-        let (k, seen) = (lane % LANES, &self.seen);
-        let [is_settled, face_a, face_b, pair, edges, short] = seen.graded.map(|row| row[k]);
-        let faces = [seen.faces_a[face_a as usize % 3][k], seen.faces_b[face_b as usize % 3][k]];
+        let (k, results) = (lane % LANES, &self.results);
+        let [is_settled, face_a, face_b, pair, edges, short] = results.graded.map(|row| row[k]);
+        let faces = [results.faces_a[face_a as usize % 3][k], results.faces_b[face_b as usize % 3][k]];
         Graded { is_settled, face_a, face_b, pair, edges, short }.best(faces)
     }
 
@@ -190,25 +194,25 @@ impl Eight {
     #[inline(always)]
     pub(super) fn placed(&self, lane: usize, posed: &Posed) -> Placed {
         let k = lane % LANES;
-        let seen = &self.seen;
+        let results = &self.results;
         let vector = |rows: &[Row; 3]| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
         let row = |rows: &[Row]| Lanes([rows[0][k], rows[1][k], rows[2][k], 0.0]);
         let rows = |rows: &[Row; 9]| [row(&rows[..3]), row(&rows[3..6]), row(&rows[6..])];
         let fifteen = Fifteen {
-            faces_a: [seen.faces_a[0][k], seen.faces_a[1][k], seen.faces_a[2][k]],
-            faces_b: row(&seen.faces_b),
-            ahead: row(&seen.ahead),
-            edges: rows(&seen.edges),
-            squared: rows(&seen.squared),
+            faces_a: [results.faces_a[0][k], results.faces_a[1][k], results.faces_a[2][k]],
+            faces_b: row(&results.faces_b),
+            ahead: row(&results.ahead),
+            edges: rows(&results.edges),
+            squared: rows(&results.squared),
         };
-        let place = (basis(&seen.relative, k), vector(&seen.offset));
-        Placed::new(posed, basis(&seen.basis, k), place, fifteen)
+        let place = (basis(&results.relative, k), vector(&results.offset));
+        Placed::new(posed, basis(&results.basis, k), place, fifteen)
     }
 }
 
-impl Asked8 {
+impl Input8 {
     #[inline(always)]
-    pub(super) fn look<const GRADED: bool>(&self, seen: &mut Seen8) {
+    pub(super) fn look<const GRADED: bool>(&self, results: &mut Results8) {
         for k in 0..LANES {
             let rotation = |side: usize| {
                 let [x, y, z, w] = &self.rotations[side];
@@ -224,22 +228,22 @@ impl Asked8 {
             let offset = basis.turn_back(DVec3::new(x[k], y[k], z[k]));
             let fifteen = Fifteen::new(&[half(0), half(1)], &relative, offset);
             let precision = Size::precision(0.0, self.sizes[k], offset);
-            seen.parted[k] = fifteen.parted(self.limits[k], &precision);
-            seen.deep[k] = fifteen.top() + closed_form(&precision);
+            results.parted[k] = fifteen.parted(self.limits[k], &precision);
+            results.deep[k] = fifteen.top() + closed_form(&precision);
             if GRADED {
                 let Graded { is_settled, face_a, face_b, pair, edges, short } = fifteen.graded(&precision);
-                write(&mut seen.graded, [is_settled, face_a, face_b, pair, edges, short], k);
+                write(&mut results.graded, [is_settled, face_a, face_b, pair, edges, short], k);
             }
-            write_basis(&mut seen.basis, &basis, k);
-            write_basis(&mut seen.relative, &relative, k);
+            write_basis(&mut results.basis, &basis, k);
+            write_basis(&mut results.relative, &relative, k);
             for c in 0..3 {
-                seen.offset[c][k] = offset[c];
-                seen.faces_a[c][k] = fifteen.faces_a[c];
-                seen.faces_b[c][k] = fifteen.faces_b.0[c];
-                seen.ahead[c][k] = fifteen.ahead.0[c];
+                results.offset[c][k] = offset[c];
+                results.faces_a[c][k] = fifteen.faces_a[c];
+                results.faces_b[c][k] = fifteen.faces_b.0[c];
+                results.ahead[c][k] = fifteen.ahead.0[c];
                 for j in 0..3 {
-                    seen.edges[3 * c + j][k] = fifteen.edges[c].0[j];
-                    seen.squared[3 * c + j][k] = fifteen.squared[c].0[j];
+                    results.edges[3 * c + j][k] = fifteen.edges[c].0[j];
+                    results.squared[3 * c + j][k] = fifteen.squared[c].0[j];
                 }
             }
         }
@@ -305,10 +309,10 @@ mod tests {
         rows.iter().flatten().map(|number| number.to_bits()).collect()
     }
 
-    fn all_bits(seen: &Seen8) -> Vec<u64> {
-        let nines = [&seen.basis, &seen.relative, &seen.edges, &seen.squared].map(bits);
-        let threes = [&seen.offset, &seen.faces_a, &seen.faces_b, &seen.ahead].map(bits);
-        let ones = [bits(&[seen.parted]), bits(&[seen.deep]), bits(&seen.graded)];
+    fn all_bits(results: &Results8) -> Vec<u64> {
+        let nines = [&results.basis, &results.relative, &results.edges, &results.squared].map(bits);
+        let threes = [&results.offset, &results.faces_a, &results.faces_b, &results.ahead].map(bits);
+        let ones = [bits(&[results.parted]), bits(&[results.deep]), bits(&results.graded)];
         [nines.concat(), threes.concat(), ones.concat()].concat()
     }
 
@@ -327,9 +331,9 @@ mod tests {
             eight.look::<true>();
             let mut narrower = [Eight::BLANK, Eight::BLANK];
             let [one, other] = &mut narrower;
-            wide::look_narrower::<true>(&eight.asked, [&mut one.seen, &mut other.seen]);
+            wide::look_narrower::<true>(&eight.input, [&mut one.results, &mut other.results]);
             for portable in &narrower {
-                assert_eq!(all_bits(&eight.seen), all_bits(&portable.seen));
+                assert_eq!(all_bits(&eight.results), all_bits(&portable.results));
             }
             for k in 0..LANES {
                 let (mut alone, placed) = (posed(k).placed(), eight.placed(k, &posed(k)));

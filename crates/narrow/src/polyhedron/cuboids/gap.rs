@@ -17,10 +17,10 @@
 //! a frame's time (2026-11-23).
 
 use super::super::sat::{AxisOf, hint_to, hint_with};
-use super::asked::Contact;
 use super::contact::{Touching, looks};
 use super::patch::{Patch, Reference};
 use super::placed::Placed;
+use super::queries::Contact;
 use super::settled::{Best, Edges, SLACK};
 use crate::answer::Manifold3;
 use crate::feature::Hint;
@@ -43,10 +43,10 @@ impl Touching<'_> {
         let contact = match of {
             _ if self.is_beyond_faces() => None,
             AxisOf::FaceA(face) => {
-                self.over_face(face, false, |patch| self.told(of, patch, manifold.as_deref_mut()))
+                self.over_face(face, false, |patch| self.across_patch(of, patch, manifold.as_deref_mut()))
             }
             AxisOf::FaceB(face) => {
-                self.over_face(face, true, |patch| self.told(of, patch, manifold.as_deref_mut()))
+                self.over_face(face, true, |patch| self.across_patch(of, patch, manifold.as_deref_mut()))
             }
             AxisOf::Edges(..) => None,
         };
@@ -129,7 +129,7 @@ impl Touching<'_> {
     /// incident cuboid; the rest covers 8 u for the crossing of an edge and a side, along the side and across, and 12 u
     /// for the height at a corner of the reference face, over a face that is tilted by 60 degrees at most.
     #[inline(always)]
-    fn told(&self, of: AxisOf, patch: &Patch, manifold: Option<&mut Manifold3>) -> Option<Contact> {
+    fn across_patch(&self, of: AxisOf, patch: &Patch, manifold: Option<&mut Manifold3>) -> Option<Contact> {
         let Self { placed, best, .. } = *self;
         let (least, nearest) = (best.separation(), best.axis_of(placed));
         let lowest = if nearest == of { placed.lowest(patch) } else { self.lowest_over(nearest)? };

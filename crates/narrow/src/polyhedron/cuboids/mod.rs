@@ -13,7 +13,6 @@
 //! ([`placed::Posed`]): `fifteen` computes all axes at once; `settled` picks the best of them for one pair, `graded`
 //! for eight side by side (`eight`), without a branch.
 
-pub(crate) mod asked;
 pub(crate) mod ball;
 mod brick;
 mod contact;
@@ -24,6 +23,7 @@ mod graded;
 mod names;
 mod patch;
 pub(crate) mod placed;
+pub(crate) mod queries;
 mod reduce;
 mod settled;
 mod wide;

@@ -198,11 +198,11 @@ impl Faces {
         let [i, u, v] = axes_of(reference.face);
         let by_height = 1.0 / (normal[i] * sign_of(reference.face));
         let (aside_u, aside_v) = (normal[u], normal[v]);
-        let seen = |[u, v, height]: [f64; 3]| {
+        let sheared = |[u, v, height]: [f64; 3]| {
             let height = height * by_height;
             [u - aside_u * height, v - aside_v * height, height]
         };
-        Self { half: self.half, center: seen(self.center), p: seen(self.p), q: seen(self.q) }
+        Self { half: self.half, center: sheared(self.center), p: sheared(self.p), q: sheared(self.q) }
     }
 
     /// Computes the common patch. To be called through `super::wide`, which compiles it.

@@ -2,7 +2,7 @@
 
 use super::super::sat::tests::Random;
 use super::super::sat::{AxisOf, hint_to};
-use super::asked::Contact;
+use super::queries::Contact;
 use crate::pair3::reach_of;
 use crate::{ContactPoint3, Feature, FeatureId, Hint, Manifold3, Pair3};
 use asunder_geometry::glam::{Quat, Vec3};
@@ -98,13 +98,13 @@ impl Compared {
     fn of(seed: u64, pair: impl Fn(&mut Random, usize) -> ([Shape3; 2], [Pose3; 2], f32)) -> Self {
         let (mut random, mut compared) = (Random(seed), Self::default());
         for round in 0..8000 {
-            compared.hear(round, pair(&mut random, round));
+            compared.compare(round, pair(&mut random, round));
         }
         compared
     }
 
     /// Compares the cuboid kernels with the general path.
-    fn hear(&mut self, round: usize, (shapes, poses, margin): ([Shape3; 2], [Pose3; 2], f32)) {
+    fn compare(&mut self, round: usize, (shapes, poses, margin): ([Shape3; 2], [Pose3; 2], f32)) {
         let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
         let mut plain = Vec::new();
         let _ = pair.general_contact(margin, Hint::NONE, &mut Some(&mut plain));
@@ -167,7 +167,7 @@ fn side_by_side_or_one_by_one_the_points_are_the_same() {
 }
 
 #[test]
-fn edges_that_cross_over_a_gap_are_told_as_the_general_path_tells_them() {
+fn edges_that_cross_over_a_gap_have_the_points_of_the_general_path() {
     let compared = Compared::of(0x51C4_0A3B_90D1_77E2, crossed);
     let [alone, more] = compared.across_edges;
     assert!(alone > 1500 && more > 200, "{compared:?}");
@@ -185,19 +185,23 @@ fn lying(axis: usize, roll: f32) -> Quat {
 
 /// Checks that the cuboid kernels' contact across a gap, if they find one, has the normal and the points of the general
 /// path. Returns whether they do, and how many points there are.
-fn told_alike(name: &str, (shapes, poses): &([Shape3; 2], [Pose3; 2]), hint: Hint) -> Option<(bool, usize)> {
+fn contacts_agree(
+    name: &str,
+    (shapes, poses): &([Shape3; 2], [Pose3; 2]),
+    hint: Hint,
+) -> Option<(bool, usize)> {
     const MARGIN: f32 = 0.03;
     let pair = Pair3::new(&shapes[0], &poses[0], &shapes[1], &poses[1]);
     let (mut room, mut plain) = (Manifold3::BLANK, Vec::new());
     let contact = pair.cuboids().unwrap().contact(reach_of(MARGIN), hint, Some(&mut room));
     let _ = pair.general_contact(MARGIN, hint, &mut Some(&mut plain));
     let plain = plain.pop().filter(|plain| plain.separation > 0.0)?;
-    let is_told = matches!(contact, Contact::Near(_));
-    if is_told {
+    let is_found = matches!(contact, Contact::Near(_));
+    if is_found {
         assert!(room.normal.dot(plain.normal) > 0.999_999, "{name}: {room:?}, {plain:?}");
         assert_eq!(ids(&room), ids(&plain), "{name}: {room:?}, {plain:?}");
     }
-    Some((is_told, plain.points.len()))
+    Some((is_found, plain.points.len()))
 }
 
 /// Edges that nearly run along each other, or overlap only with their ends, touch at both ends of the stretch that they
@@ -222,7 +226,7 @@ fn edges_that_cross_but_lie_side_by_side_are_left_to_the_general_path() {
             [turn * lying(edges[0], rolls[0]), turn * about(Vec3::Z, angle) * lying(edges[1], rolls[1])];
         let gap = (turn * Vec3::Z, 0.001 + 0.02 * random.number().abs());
         let pair = over_each_other(halves, turns, [(edges[0], places[0]), (edges[1], places[1])], gap);
-        match told_alike(&format!("round {round}"), &pair, Hint::NONE) {
+        match contacts_agree(&format!("round {round}"), &pair, Hint::NONE) {
             Some((true, _)) => crossing += 1,
             Some((false, 2)) => beside += 1,
             _ => {}
@@ -251,7 +255,7 @@ fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path
         let gap = (turn * Vec3::Z, (4e-6 / (lean * lean)).min(0.02) * random.number().abs());
         let pair = over_each_other(halves, turns, [(0, places[0]), (edge, places[1])], gap);
         for (kept, hint) in [Hint::NONE, hint_to(AxisOf::FaceA(5))].into_iter().enumerate() {
-            match told_alike(&format!("round {round}"), &pair, hint) {
+            match contacts_agree(&format!("round {round}"), &pair, hint) {
                 Some((true, _)) => of_edges += 1,
                 Some((false, _)) => left[kept] += 1,
                 None => {}
@@ -260,6 +264,6 @@ fn edges_that_cross_hardly_nearer_than_a_face_parts_are_left_to_the_general_path
     }
     assert!(
         of_edges > 500 && left.iter().all(|&count| count > 500),
-        "{of_edges} told by themselves, {left:?} left"
+        "{of_edges} in closed form, {left:?} left"
     );
 }

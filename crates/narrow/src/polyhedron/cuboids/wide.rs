@@ -7,7 +7,7 @@
 #![allow(unsafe_code, reason = "the compiler cannot know what a processor was asked at run time")]
 
 use super::contact::Touching;
-use super::eight::{Asked8, Seen8};
+use super::eight::{Input8, Results8};
 use super::patch::{Faces, Patch, Wanted};
 use crate::answer::Manifold3;
 use asunder_geometry::glam::DVec3;
@@ -62,7 +62,7 @@ fn anywhere<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
-struct Look<'a, const GRADED: bool>(&'a Asked8, &'a mut Seen8);
+struct Look<'a, const GRADED: bool>(&'a Input8, &'a mut Results8);
 
 impl<const GRADED: bool> Kernel for Look<'_, GRADED> {
     type Output = ();
@@ -75,16 +75,16 @@ impl<const GRADED: bool> Kernel for Look<'_, GRADED> {
 
 /// Looks at eight pairs.
 #[inline]
-pub(super) fn look<const GRADED: bool>(asked: &Asked8, seen: &mut Seen8) {
-    widest_of_rows(Look::<GRADED>(asked, seen));
+pub(super) fn look<const GRADED: bool>(input: &Input8, results: &mut Results8) {
+    widest_of_rows(Look::<GRADED>(input, results));
 }
 
 /// [`look`] with registers that the processor may have wider, and by the portable twin.
 #[cfg(test)]
-pub(super) fn look_narrower<const GRADED: bool>(asked: &Asked8, seen: [&mut Seen8; 2]) {
-    let [one, other] = seen;
-    widest(Look::<GRADED>(asked, one));
-    anywhere(Look::<GRADED>(asked, other));
+pub(super) fn look_narrower<const GRADED: bool>(input: &Input8, results: [&mut Results8; 2]) {
+    let [one, other] = results;
+    widest(Look::<GRADED>(input, one));
+    anywhere(Look::<GRADED>(input, other));
 }
 
 struct Cut<'a>(&'a Faces, &'a Wanted);
@@ -171,12 +171,12 @@ mod tests {
                 patches += 1;
                 for leaning in [None, Some(DVec3::new(0.6, 0.0, 0.8))] {
                     let mut manifolds = [Manifold3::BLANK; 2];
-                    let is_told = fill(&touching, &found, leaning, &mut manifolds[0]).is_some();
+                    let is_filled = fill(&touching, &found, leaning, &mut manifolds[0]).is_some();
                     let is_too = anywhere(Fill(&touching, &found, leaning, &mut manifolds[1])).is_some();
                     // Debug output of a float is different where its bits are.
                     let [one, other] = manifolds.map(|manifold| format!("{manifold:?}"));
-                    assert_eq!((is_told, one), (is_too, other));
-                    filled += usize::from(is_told);
+                    assert_eq!((is_filled, one), (is_too, other));
+                    filled += usize::from(is_filled);
                 }
             }
         }

@@ -95,7 +95,7 @@ impl Touch {
 
 /// The input from which contact points are built.
 #[derive(Clone, Copy)]
-pub(crate) struct Ask<'a> {
+pub(crate) struct TouchInput<'a> {
     /// The best axes.
     pub(crate) axes: &'a Axes,
     /// Closest points of the cores, where those do not overlap.
@@ -118,20 +118,20 @@ pub(crate) struct Ask<'a> {
 /// An axis that is only nearly the best may have its deepest point clipped away, because what touches lies just beside
 /// its face. Then the best axis is tried in its place; in a gap, faces that nearly face each other across it; and last
 /// the witness points.
-pub(crate) fn touch(a: &Solid, b: &Solid, ask: &Ask) -> Touch {
+pub(crate) fn touch(a: &Solid, b: &Solid, input: &TouchInput) -> Touch {
     let mut touch = Touch::none();
-    touch_into(a, b, ask, &mut touch);
+    touch_into(a, b, input, &mut touch);
     touch
 }
 
 /// [`touch`] in place: a manifold is large, and this avoids moving it.
-pub(crate) fn touch_into(a: &Solid, b: &Solid, ask: &Ask, touch: &mut Touch) {
-    if !ask.along_axes(a, b, touch) {
-        ask.at_last(a, b, touch);
+pub(crate) fn touch_into(a: &Solid, b: &Solid, input: &TouchInput, touch: &mut Touch) {
+    if !input.along_axes(a, b, touch) {
+        input.at_last(a, b, touch);
     }
 }
 
-impl Ask<'_> {
+impl TouchInput<'_> {
     fn depths(&self, a: &Solid, b: &Solid) -> Depths {
         let deep = self.at_stake() + self.preference;
         let least = deep - a.radius - b.radius;

@@ -85,12 +85,12 @@ fn nearest(a: &Outline, b: &Outline, slack: f64) -> Option<Near> {
 
 /// A vertex as projected along the axis.
 #[derive(Clone, Copy)]
-struct Seen {
+struct Projected {
     at: [f64; 2],
     vertex: usize,
 }
 
-impl Seen {
+impl Projected {
     fn feature(&self) -> Feature {
         Feature::Vertex(self.vertex as u32)
     }
@@ -98,16 +98,16 @@ impl Seen {
 
 /// The convex outline of a shape's furthest vertices, counterclockwise.
 struct Outline {
-    corners: ArrayVec<Seen, MAX_HULL_VERTICES>,
+    corners: ArrayVec<Projected, MAX_HULL_VERTICES>,
 }
 
 impl Outline {
     fn of(solid: &Solid, direction: DVec3, frame: &Frame, slack: f64) -> Self {
         let least = solid.support(direction).reach - slack;
         let far = |&vertex: &usize| direction.dot(solid.point(vertex)) >= least;
-        let mut all: ArrayVec<Seen, MAX_HULL_VERTICES> = ArrayVec::new();
+        let mut all: ArrayVec<Projected, MAX_HULL_VERTICES> = ArrayVec::new();
         for vertex in (0..solid.vertices.len()).filter(far) {
-            let _ = all.try_push(Seen { at: frame.shift(solid.point(vertex)), vertex });
+            let _ = all.try_push(Projected { at: frame.shift(solid.point(vertex)), vertex });
         }
         all.sort_unstable_by(|one, other| {
             let by_place = one.at[0].total_cmp(&other.at[0]).then(one.at[1].total_cmp(&other.at[1]));
@@ -123,7 +123,7 @@ impl Outline {
     }
 
     /// Each corner with the next; a single corner with itself.
-    fn sides(&self) -> impl Iterator<Item = [Seen; 2]> {
+    fn sides(&self) -> impl Iterator<Item = [Projected; 2]> {
         let next = self.corners.iter().cycle().skip(1);
         self.corners.iter().zip(next).map(|(&from, &to)| [from, to])
     }
@@ -141,9 +141,12 @@ impl Outline {
 
 /// Adds the half of an outline to the right of the line from the first of the sorted corners to the last. The last
 /// corner itself is left to the other half.
-fn add_chain<'a>(sorted: impl Iterator<Item = &'a Seen>, corners: &mut ArrayVec<Seen, MAX_HULL_VERTICES>) {
+fn add_chain<'a>(
+    sorted: impl Iterator<Item = &'a Projected>,
+    corners: &mut ArrayVec<Projected, MAX_HULL_VERTICES>,
+) {
     let start = corners.len();
-    let mut last: Option<Seen> = None;
+    let mut last: Option<Projected> = None;
     for &next in sorted {
         if let Some(last) = last {
             let _ = corners.try_push(last);
@@ -177,14 +180,14 @@ fn less(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
 /// The nearest points of two sides.
 struct Near {
     aside: f64,
-    sides: [[Seen; 2]; 2],
+    sides: [[Projected; 2]; 2],
     /// The nearest point of each side, from 0 at its start to 1 at its end.
     shares: [f64; 2],
 }
 
 impl Near {
-    fn of(side_a: [Seen; 2], side_b: [Seen; 2]) -> Self {
-        let [[a0, a1], [b0, b1]] = [side_a, side_b].map(|side| side.map(|seen| seen.at));
+    fn of(side_a: [Projected; 2], side_b: [Projected; 2]) -> Self {
+        let [[a0, a1], [b0, b1]] = [side_a, side_b].map(|side| side.map(|corner| corner.at));
         let (along_a, along_b, between) = (less(a1, a0), less(b1, b0), less(b0, a0));
         let foot = |at: [f64; 2], from: [f64; 2], along: [f64; 2]| {
             (dot(less(at, from), along) / dot(along, along)).clamp(0.0, 1.0)
@@ -213,7 +216,7 @@ impl Near {
     }
 
     fn on(&self, solid: &Solid, which: usize) -> DVec3 {
-        let [from, to] = self.sides[which].map(|seen| solid.point(seen.vertex));
+        let [from, to] = self.sides[which].map(|corner| solid.point(corner.vertex));
         from + (to - from) * self.shares[which]
     }
 

@@ -168,7 +168,7 @@ fn no_four_could_keep_more_with_the_middle_of_a_side() {
 
 /// A cap of twelve sides has three squares, which are equal up to rounding: the same one in every frame.
 #[test]
-fn ties_go_the_same_way_whatever_rounding_says() {
+fn ties_go_the_same_way_whatever_the_rounding() {
     let mut random = Rand64::new(5);
     let half = 3.0_f64.sqrt() / 2.0;
     let quarter = [[0.0, 1.0], [0.5, half], [half, 0.5]];
@@ -180,16 +180,16 @@ fn ties_go_the_same_way_whatever_rounding_says() {
     };
     let cap: Vec<[f64; 2]> = (0..12).map(|i| turn(quarter[i % 3], i / 3)).collect();
     let mut jitter = || (random.rand_float() - 0.5) * 1e-12;
-    let mut seen = std::collections::BTreeSet::new();
+    let mut chosen_sets = std::collections::BTreeSet::new();
     for _ in 0..1000 {
         let corners: Vec<Corner> =
             cap.iter().map(|[x, y]| ([x + jitter(), y + jitter()], jitter())).collect();
         let mut chosen = pick(&corners, 1e-9);
         chosen.sort_unstable();
-        seen.insert(chosen);
+        chosen_sets.insert(chosen);
     }
-    assert_eq!(seen.len(), 1, "{seen:?}");
-    assert!(seen.contains(&[0, 3, 6, 9]), "the square of the lowest id: {seen:?}");
+    assert_eq!(chosen_sets.len(), 1, "{chosen_sets:?}");
+    assert!(chosen_sets.contains(&[0, 3, 6, 9]), "the square of the lowest id: {chosen_sets:?}");
 }
 
 /// Caps with several fours of the same area, which tremble: the same four, wherever the list begins and from either
@@ -201,7 +201,7 @@ fn which_four_is_a_matter_of_features_and_not_of_the_list() {
         let cap = regular(count);
         // A feature of each shape; they change places with the shapes.
         let feature = |i: usize| [Feature::Face(3), Feature::Vertex((41 * i % count) as u32)];
-        let mut seen = std::collections::BTreeSet::new();
+        let mut chosen_sets = std::collections::BTreeSet::new();
         for round in 0..6 * count {
             let (begin, is_mirrored) = (round / 2 % count, round % 2 == 1);
             let corner = |place: usize| (begin + if is_mirrored { count - place } else { place }) % count;
@@ -219,8 +219,8 @@ fn which_four_is_a_matter_of_features_and_not_of_the_list() {
             };
             let mut chosen = pick_four(count, |place| spots[place], named, 1e-4).map(corner);
             chosen.sort_unstable();
-            seen.insert(chosen);
+            chosen_sets.insert(chosen);
         }
-        assert_eq!(seen.len(), 1, "{count}: {seen:?}");
+        assert_eq!(chosen_sets.len(), 1, "{count}: {chosen_sets:?}");
     }
 }

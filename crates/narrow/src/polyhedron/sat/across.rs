@@ -10,7 +10,7 @@
 //! hulls of 32 vertices in a gap took 2.4 to 9 us, and take 0.7 to 1.6 with their contact points (AMD EPYC, Zen 4,
 //! 2026-11-21).
 
-use super::super::distance::{TELLING, Witness};
+use super::super::distance::{CLEAR_GAP, Witness};
 use super::super::manifold::are_side_by_side;
 use super::super::solid::Solid;
 use super::facet::in_face;
@@ -82,8 +82,8 @@ pub(crate) fn across_edges(
     }
     let distance = (point_b - point_a).length();
     // Where the points are so close that the axis is rounding, or not a number, slower methods decide.
-    let is_telling = distance > TELLING * precision.size;
-    if !is_telling {
+    let is_clear = distance > CLEAR_GAP * precision.size;
+    if !is_clear {
         return None;
     }
     let normal = (point_b - point_a) / distance;

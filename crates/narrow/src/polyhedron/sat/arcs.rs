@@ -243,7 +243,7 @@ mod tests {
     use asunder_geometry::{Hull, Pose3, Shape3};
 
     #[test]
-    fn lanes_say_what_the_definition_says() {
+    fn lanes_agree_with_the_definition() {
         let mut state = 1_u64;
         let mut number = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn few_edges_are_told_apart_as_many_are() {
+    fn few_edges_are_distinguished_as_many_are() {
         let mut random = Random(0x9E37_79B9_7F4A_7C15);
         let mut visited = 0;
         for case in 0..200_u64 {

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn arcs_that_meet_lie_in_caps_that_meet_and_lanes_say_what_the_definition_says() {
+    fn arcs_that_meet_lie_in_caps_that_meet_and_lanes_agree_with_the_definition() {
         let mut random = Random(0x3C79_AC49_2BA7_B653);
         let (mut meeting, mut apart, mut whole) = (0, 0, 0);
         for case in 0..4000 {

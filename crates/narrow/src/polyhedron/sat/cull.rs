@@ -167,7 +167,7 @@ impl<'a, 'b> Sight<'a, 'b> {
     /// some of its neighbours.
     fn look_closer(&mut self, separation: f64, lanes: &mut ArrayVec<u16, MAX_EDGES>) {
         let (mut kept, mut at) = (0, 0);
-        let (mut asked, mut in_vain) = (0, 0);
+        let (mut tested, mut in_vain) = (0, 0);
         while let Some(&first) = lanes.get(at) {
             let place = first / 8;
             let mut open = NONE_OPEN;
@@ -179,12 +179,12 @@ impl<'a, 'b> Sight<'a, 'b> {
             open = self.closed_by_points(open, |ball| ball.rises(octet, separation));
             while let Some(i) = open.iter().position(|&lane| lane != 0) {
                 // Given up where too few are ruled out: on shapes so symmetric that all edges are as good, none is.
-                if asked < FEW || 8 * in_vain < 7 * asked {
+                if tested < FEW || 8 * in_vain < 7 * tested {
                     let middle = self.solid.arcs()[octet.numbers[i] as usize].middle;
                     let middle = self.solid.turned(middle.as_dvec3().normalize_or_zero());
                     self.add(self.other.rough_support(-middle).0.vertex);
                     open = both(open, self.points[0].rises(octet, separation));
-                    asked += 1;
+                    tested += 1;
                     in_vain += open[i] as usize;
                 }
                 if open[i] != 0 {

@@ -209,11 +209,11 @@ mod tests {
     use super::super::tests::Random;
     use super::*;
 
-    /// Includes needles, whose normals are rounding; triangles with the origin behind them are refused.
+    /// Includes needles, whose normals are rounding; triangles with the origin behind them are rejected.
     #[test]
     fn no_point_of_a_facet_is_nearer_than_its_bound() {
         let mut random = Random(0x9E6C_63D0_676A_9A99);
-        let (mut taken, mut refused, mut needles) = (0, 0, 0);
+        let (mut taken, mut rejected, mut needles) = (0, 0, 0);
         for case in 0..20_000 {
             let [p, q, aside] = [0; 3].map(|_| random.vector().as_dvec3());
             // Nearly on the line through the other two.
@@ -222,7 +222,7 @@ mod tests {
             let mut surface = Surface::new(1e-15);
             surface.points.extend([p, q, r]);
             if surface.add([0, 1, 2]).is_none() {
-                refused += 1;
+                rejected += 1;
                 continue;
             }
             let least = surface.least[0];
@@ -234,6 +234,6 @@ mod tests {
                 assert!(point.length() >= least - 1e-14, "case {case}: {point} and {least}");
             }
         }
-        assert!(taken > 5000 && refused > 5000 && needles > 1000, "{taken}, {refused}, {needles}");
+        assert!(taken > 5000 && rejected > 5000 && needles > 1000, "{taken}, {rejected}, {needles}");
     }
 }

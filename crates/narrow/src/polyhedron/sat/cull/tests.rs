@@ -71,7 +71,7 @@ fn spheres(random: &mut Random, solid: &Solid) -> [(DVec3, f64); 4] {
 
 #[derive(Debug, Default)]
 struct Count {
-    asked: usize,
+    tested: usize,
     /// Left out when asked for a little more than they may show.
     closed: usize,
     /// Those that show most inside the arc, and not at its ends.
@@ -99,7 +99,7 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
                         above(&over, ball.least(separation))[face % 8] != 0
                     };
                     assert!(is_open(possible), "case {case}, face {face}: {possible} of {sphere:?}");
-                    faces.asked += 1;
+                    faces.tested += 1;
                     faces.closed += usize::from(!is_open(possible + gap));
                 }
                 // The ends of a half circle say nothing about its middle.
@@ -119,7 +119,7 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
                         ball.rises(&solid.edge_octets()[lane / 8], separation)[lane % 8] != 0
                     };
                     assert!(is_open(possible), "case {case}, edge {edge}: {possible} of {sphere:?}");
-                    edges.asked += 1;
+                    edges.tested += 1;
                     edges.closed += usize::from(!is_open(possible + gap));
                     let ends = normals.map(|normal| most(solid, normal, sphere));
                     edges.inside += usize::from(possible > ends[0].max(ends[1]) + gap);
@@ -127,8 +127,8 @@ fn a_sphere_leaves_out_no_face_and_no_edge_that_may_show_enough() {
             }
         });
     }
-    assert!(faces.closed * 10 > faces.asked * 9, "{faces:?}");
-    assert!(edges.closed * 2 > edges.asked && edges.inside > 1000, "{edges:?}");
+    assert!(faces.closed * 10 > faces.tested * 9, "{faces:?}");
+    assert!(edges.closed * 2 > edges.tested && edges.inside > 1000, "{edges:?}");
 }
 
 /// The separation along a direction of a solid's own axes.
@@ -139,7 +139,7 @@ fn separation_along(solid: &Solid, other: &Solid, direction: DVec3) -> f64 {
 
 /// Spheres and points together, as the full test uses them.
 #[test]
-fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
+fn no_face_and_no_edge_is_culled_whose_axes_reach_the_least_separation() {
     let mut random = Random(0x5895_59F1_1A8B_3F7D);
     let (mut faces, mut edges) = (Count::default(), Count::default());
     for case in 0..600_u64 {
@@ -170,35 +170,35 @@ fn no_face_and_no_edge_is_culled_whose_axes_come_to_the_separation_asked_for() {
                 let best =
                     shown_by_face.iter().chain(&shown_by_edge).copied().fold(f64::NEG_INFINITY, f64::max);
                 // What the full test would require, and less, so that some are just good enough.
-                let asked = best - f64::from(random.number().abs()) * 0.1 * pair.precision.size;
+                let least = best - f64::from(random.number().abs()) * 0.1 * pair.precision.size;
                 let mut over = Heights::new_const();
                 let mut sight = Sight::new(solid, other, &mut over);
                 sight.highest().unwrap();
                 let mut visited = vec![false; solid.face_count()];
-                sight.for_faces(asked, |face| {
+                sight.for_faces(least, |face| {
                     visited[face] = true;
-                    (other.support(-solid.normal(face)).vertex, asked)
+                    (other.support(-solid.normal(face)).vertex, least)
                 });
                 let mut kept = ArrayVec::new();
-                sight.edges(asked, &mut kept);
+                sight.edges(least, &mut kept);
                 for (face, &shown) in shown_by_face.iter().enumerate() {
                     assert!(
-                        visited[face] || shown < asked,
-                        "case {case}, face {face}: {shown}, asked {asked}"
+                        visited[face] || shown < least,
+                        "case {case}, face {face}: {shown}, least {least}"
                     );
-                    faces.asked += 1;
+                    faces.tested += 1;
                     faces.closed += usize::from(!visited[face]);
                 }
                 kept.sort_unstable();
                 assert!(kept.is_sorted_by(|one, next| one < next), "each once");
                 for (edge, &shown) in shown_by_edge.iter().enumerate() {
                     let is_kept = kept.binary_search(&(edge as u16)).is_ok();
-                    assert!(is_kept || shown < asked, "case {case}, edge {edge}: {shown}, asked {asked}");
-                    edges.asked += 1;
+                    assert!(is_kept || shown < least, "case {case}, edge {edge}: {shown}, least {least}");
+                    edges.tested += 1;
                     edges.closed += usize::from(!is_kept);
                 }
             }
         });
     }
-    assert!(faces.closed * 2 > faces.asked && edges.closed * 2 > edges.asked, "{faces:?}, {edges:?}");
+    assert!(faces.closed * 2 > faces.tested && edges.closed * 2 > edges.tested, "{faces:?}, {edges:?}");
 }

@@ -60,16 +60,16 @@ fn check(case: u64, pair: &Convex, (a, b): (&Solid, &Solid), truth: &Witness, wi
 }
 
 #[test]
-fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
+fn a_gap_is_as_wide_as_by_the_iteration_or_not_found() {
     let mut random = Random(0x8EBC_6AF0_9C88_C6E3);
-    let (mut by_face, mut by_edges, mut by_direction, mut untold, mut never) = (0, 0, 0, 0, 0);
+    let (mut by_face, mut by_edges, mut by_direction, mut not_found, mut never) = (0, 0, 0, 0, 0);
     for case in 0..300_u64 {
         let ([shape_a, shape_b], [pose_a, pose_b]) = placed(&mut random, case);
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
         pair.with_solids(|a, b| {
             let Some(truth) = iterated(&pair, a, b) else { return };
             let check = |witness: &Witness| check(case, &pair, (a, b), &truth, witness);
-            let mut is_told = false;
+            let mut is_found = false;
             let edges = |solid: &Solid| solid.topology.edges().to_vec();
             let pairs = edges(a).into_iter().flat_map(|edge_a| {
                 edges(b).into_iter().map(move |edge_b| AxisOf::Edges(edge_a.into(), edge_b.into()))
@@ -78,35 +78,35 @@ fn a_gap_is_as_wide_as_the_iteration_says_or_it_is_not_told() {
             for of in faces.chain(pairs) {
                 let Some(hinted) = Hinted::new((a, b), hint_to(of), &pair.precision) else { continue };
                 let Some((_, witness)) = hinted.across((a, b), &pair.precision) else {
-                    untold += 1;
+                    not_found += 1;
                     continue;
                 };
                 check(&witness);
-                is_told = true;
+                is_found = true;
                 if matches!(of, AxisOf::Edges(..)) { by_edges += 1 } else { by_face += 1 }
             }
             // From the right direction, and from unrelated ones.
             for direction in [truth.normal, DVec3::X, random.vector().normalize_or(Vec3::X).as_dvec3()] {
                 if let Some((_, witness)) = across_edges((a, b), direction, &pair.precision) {
                     check(&witness);
-                    is_told = true;
+                    is_found = true;
                     by_direction += 1;
                 }
             }
-            never += usize::from(!is_told);
+            never += usize::from(!is_found);
         });
     }
-    let counts = [by_face, by_edges, by_direction, untold, never];
+    let counts = [by_face, by_edges, by_direction, not_found, never];
     assert!(
-        by_face > 40 && by_edges > 40 && by_direction > 20 && untold > 50_000 && never < 30,
+        by_face > 40 && by_edges > 40 && by_direction > 20 && not_found > 50_000 && never < 30,
         "{counts:?}"
     );
 }
 
 #[test]
-fn of_what_stands_upright_a_face_tells_of_the_gap_wherever_its_edges_end() {
+fn a_face_finds_the_gap_of_upright_solids_wherever_its_edges_end() {
     let mut random = Random(0x2127_599B_F432_5C37);
-    let (mut by_face, mut untold) = (0, 0);
+    let (mut by_face, mut not_found) = (0, 0);
     for case in 0..300_u64 {
         let (shapes, turns, at) = upright(&mut random, case);
         let posed = |out: f64| {
@@ -116,18 +116,18 @@ fn of_what_stands_upright_a_face_tells_of_the_gap_wherever_its_edges_end() {
         let pair = convex(&shapes[0], pose_a, &shapes[1], pose_b);
         pair.with_solids(|a, b| {
             let Some(truth) = iterated(&pair, a, b) else { return };
-            let mut is_told = false;
+            let mut is_found = false;
             let faces = (0..a.face_count()).map(AxisOf::FaceA).chain((0..b.face_count()).map(AxisOf::FaceB));
             for of in faces {
                 let hinted = Hinted::new((a, b), hint_to(of), &pair.precision);
                 if let Some((_, witness)) = hinted.and_then(|hinted| hinted.across((a, b), &pair.precision)) {
                     check(case, &pair, (a, b), &truth, &witness);
-                    is_told = true;
+                    is_found = true;
                 }
             }
-            if is_told { by_face += 1 } else { untold += 1 }
+            if is_found { by_face += 1 } else { not_found += 1 }
         });
     }
     // Where corners are nearest, as seen from above, no face finds the gap.
-    assert!(by_face > 240 && untold < 50, "{by_face}, {untold}");
+    assert!(by_face > 240 && not_found < 50, "{by_face}, {not_found}");
 }

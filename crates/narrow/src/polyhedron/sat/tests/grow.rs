@@ -2,7 +2,7 @@
 
 use super::proofs::{exhaustive, placed};
 use super::*;
-use crate::polyhedron::convex::{Asked, Probe, Wanted};
+use crate::polyhedron::convex::{Probe, Query, Wanted};
 use crate::polyhedron::sat::grow::{Bound, Met, grow};
 
 /// Rings of `sides` corners at several heights, of different widths: prisms, frustums, cones, drums.
@@ -37,7 +37,7 @@ fn rimmed_pair(random: &mut Random, sides: [usize; 2], case: u64) -> ([Shape3; 2
 #[test]
 fn depths_are_bounded_from_both_sides_whatever_was_known() {
     let mut random = Random(0x60BE_E2BE_E120_FC15);
-    let (mut told, mut asked, mut settled) = (0, 0, 0);
+    let (mut found, mut tested, mut settled) = (0, 0, 0);
     for case in 0..900_u64 {
         let (shape_a, shape_b) = (shape(&mut random, case), shape(&mut random, case / 3));
         let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], case);
@@ -62,15 +62,15 @@ fn depths_are_bounded_from_both_sides_whatever_was_known() {
                     }
                     None => assert!(at_least >= known - slack, "case {case}: {at_least}, known {known}"),
                 }
-                told += usize::from(met.is_some());
+                found += usize::from(met.is_some());
                 settled += usize::from(met.is_none());
             }
             // Flat hulls have no inside, and what overlaps by less than rounding is left alone.
-            asked += 4 * usize::from(a.inner_radius > 0.05 && b.inner_radius > 0.05 && depth > 1e-5);
+            tested += 4 * usize::from(a.inner_radius > 0.05 && b.inner_radius > 0.05 && depth > 1e-5);
         });
     }
-    assert!(asked > 2000 && (told + settled) * 100 > asked * 90, "{told} and {settled} of {asked}");
-    assert!(told > 500 && settled > 500, "{told} and {settled} of {asked}");
+    assert!(tested > 2000 && (found + settled) * 100 > tested * 90, "{found} and {settled} of {tested}");
+    assert!(found > 500 && settled > 500, "{found} and {settled} of {tested}");
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn the_best_axis_of_hulls_with_large_faces_is_that_of_all_axes() {
 #[test]
 fn an_answer_is_as_good_whatever_axis_was_the_best_before() {
     let mut random = Random(0xD1B5_4A32_D192_ED03);
-    let (mut asked, mut left_out) = (0, 0);
+    let (mut tested, mut left_out) = (0, 0);
     for case in 0..250_u64 {
         let ([shape_a, shape_b], [pose_a, pose_b]) = rimmed_pair(&mut random, [16; 2], case);
         let before = convex(&shape_a, pose_a, &shape_b, pose_b);
@@ -111,8 +111,8 @@ fn an_answer_is_as_good_whatever_axis_was_the_best_before() {
                 Pose3::new(pose_b.position() + (random.vector() * step * 0.3).as_dvec3(), turned).unwrap();
             let pair = convex(&shape_a, pose_a, &shape_b, moved);
             pair.with_solids(|a, b| {
-                let asked_now = Asked { limit: 0.0, hint, wanted: Wanted::Number };
-                let Probe::Near(near) = pair.probe(asked_now) else { panic!("case {case}: apart") };
+                let query = Query { limit: 0.0, hint, wanted: Wanted::Number };
+                let Probe::Near(near) = pair.probe(query) else { panic!("case {case}: apart") };
                 let truth = exhaustive(a, b);
                 let off = (f64::from(near.separation) - truth).abs();
                 assert!(off <= near.error.into(), "case {case}: {} and {truth}", near.separation);
@@ -120,12 +120,12 @@ fn an_answer_is_as_good_whatever_axis_was_the_best_before() {
                 let faces = face_axes(a, b, &search_of(&pair));
                 let best_face = faces.face_a.separation.max(faces.face_b.separation);
                 let hinted = Hinted::new((a, b), hint, &pair.precision);
-                asked += 1;
+                tested += 1;
                 left_out += usize::from(hinted.is_some_and(|of| of.axis.separation > best_face));
             });
         }
     }
-    assert!(asked == 750 && left_out > 50, "{left_out} of {asked}");
+    assert!(tested == 750 && left_out > 50, "{left_out} of {tested}");
 }
 
 fn search_of<'a>(pair: &'a Convex) -> Search<'a> {

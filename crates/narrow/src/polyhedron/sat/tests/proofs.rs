@@ -76,7 +76,7 @@ fn sunk(shapes: [&Shape3; 2], deep: f64, posed: impl Fn(f64) -> [Pose3; 2]) -> f
 
 /// What came of the axes, each judged and walked from.
 #[derive(Debug, Default)]
-struct Seen {
+struct Tally {
     proved: usize,
     edges_proved: usize,
     /// Pairs that overlap by more than rounding, and those of them whose best axis was proved to be the best.
@@ -95,7 +95,7 @@ struct Seen {
     parted: usize,
 }
 
-impl Seen {
+impl Tally {
     /// Judges axes of a pair, and walks from each.
     fn look(&mut self, (a, b): (&Solid, &Solid), pair: &Convex, axes: Vec<AxisOf>, case: u64) {
         let best = exhaustive(a, b);
@@ -171,7 +171,7 @@ impl Seen {
 #[test]
 fn only_the_best_axis_is_proved_and_walks_lead_to_it() {
     let mut random = Random(0xA076_1D64_78BD_642F);
-    let mut seen = Seen::default();
+    let mut tally = Tally::default();
     for case in 0..400_u64 {
         let (shape_a, shape_b) = (hull(&mut random, case), hull(&mut random, case / 3));
         let [pose_a, pose_b] = placed(&mut random, [&shape_a, &shape_b], case);
@@ -179,20 +179,20 @@ fn only_the_best_axis_is_proved_and_walks_lead_to_it() {
         pair.with_solids(|a, b| {
             let stride = 1 + 7 * (case as usize % 3);
             let axes = every_axis(a, b, stride).into_iter().chain([own_best(&pair, a, b)]).collect();
-            seen.look((a, b), &pair, axes, case);
+            tally.look((a, b), &pair, axes, case);
         });
     }
-    assert!(seen.stale > 50_000 && seen.proved > 200 && seen.edges_proved > 10, "{seen:?}");
-    assert!(seen.shallow > 100 && seen.shallow_proved * 100 > seen.shallow * 98, "{seen:?}");
-    assert!(seen.deep > 300 && seen.deep_proved * 5 > seen.deep * 4, "{seen:?}");
-    assert!(seen.beaten > 500 && seen.led > 100_000, "{seen:?}");
+    assert!(tally.stale > 50_000 && tally.proved > 200 && tally.edges_proved > 10, "{tally:?}");
+    assert!(tally.shallow > 100 && tally.shallow_proved * 100 > tally.shallow * 98, "{tally:?}");
+    assert!(tally.deep > 300 && tally.deep_proved * 5 > tally.deep * 4, "{tally:?}");
+    assert!(tally.beaten > 500 && tally.led > 100_000, "{tally:?}");
 }
 
 /// Whole edges are furthest most of the time, and the ball in the middle covers little.
 #[test]
 fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_them() {
     let mut random = Random(0x94D0_49BB_1331_11EB);
-    let mut seen = Seen::default();
+    let mut tally = Tally::default();
     for case in 0..600_u64 {
         let ([shape_a, shape_b], turns, at) = upright(&mut random, case);
         let posed = |out: f64| {
@@ -202,10 +202,13 @@ fn what_stands_upright_side_by_side_is_proved_by_whole_edges_and_by_balls_along_
         // Further in, where the way out past A's end may be shorter than to the side.
         let [pose_a, pose_b] = posed(out * [1.0, 0.95, 0.9][case as usize % 3]);
         let pair = convex(&shape_a, pose_a, &shape_b, pose_b);
-        pair.with_solids(|a, b| seen.look((a, b), &pair, every_axis(a, b, 5), case));
+        pair.with_solids(|a, b| tally.look((a, b), &pair, every_axis(a, b, 5), case));
     }
-    assert!(seen.stale > 30_000 && seen.proved > 400 && seen.beaten > 1000 && seen.led > 3000, "{seen:?}");
-    assert!(seen.deep > 400 && seen.deep_proved * 100 > seen.deep * 98, "{seen:?}");
+    assert!(
+        tally.stale > 30_000 && tally.proved > 400 && tally.beaten > 1000 && tally.led > 3000,
+        "{tally:?}"
+    );
+    assert!(tally.deep > 400 && tally.deep_proved * 100 > tally.deep * 98, "{tally:?}");
 }
 
 /// The axis that the full test finds best.

@@ -1,6 +1,6 @@
 //! Which side of the ground a part is on, and which way the ground faces where it is touched.
 
-use super::near::{OnGround, SeenAt, box_around};
+use super::near::{OnGround, Viewpoint, box_around};
 use arrayvec::ArrayVec;
 use asunder_geometry::Ground;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -39,7 +39,7 @@ struct Around {
     /// The unit normal, towards the body.
     facing: DVec3,
     /// Whether the body is in front of it, or the ground is two-sided.
-    sees: bool,
+    is_facing: bool,
 }
 
 /// The normal of a triangle's front, not of unit length.
@@ -56,12 +56,12 @@ impl Touched {
 
 impl OnGround<'_> {
     /// Whether a triangle faces a part at this position: always, unless the ground is one-sided and the part behind it.
-    pub(crate) fn sees(&self, corners: [Vec3; 3], seen_at: SeenAt) -> bool {
+    pub(crate) fn is_facing(&self, corners: [Vec3; 3], viewpoint: Viewpoint) -> bool {
         if !self.ground.is_one_sided() {
             return true;
         }
         let corners = corners.map(|corner| corner.as_dvec3());
-        seen_at.is_in_front(corners[0], normal_of(corners))
+        viewpoint.is_in_front(corners[0], normal_of(corners))
     }
 
     /// The direction in which a touched triangle pushes a part at this position, and the triangle that gives it: no
@@ -78,22 +78,23 @@ impl OnGround<'_> {
     /// Ericson, "Real-Time Collision Detection" (2005), 5.1, has the same as Voronoi regions of edges and vertices). As
     /// all triangles that contain the point are tested, not only those across its edges, this also holds where edges do
     /// not meet.
-    pub(crate) fn facing(&self, touched: &Touched, seen_at: SeenAt) -> Facing {
-        let told = |triangle: u32, away: DVec3| Facing { triangle, away, is_left: touched.is_left(away) };
+    pub(crate) fn facing(&self, touched: &Touched, viewpoint: Viewpoint) -> Facing {
+        let facing_along =
+            |triangle: u32, away: DVec3| Facing { triangle, away, is_left: touched.is_left(away) };
         let corners = self.ground.corners(touched.triangle).map(|corner| corner.as_dvec3());
         let Some(own) = normal_of(corners).try_normalize() else {
-            return told(touched.triangle, touched.away);
+            return facing_along(touched.triangle, touched.away);
         };
         let own = if own.dot(touched.away) < 0.0 { -own } else { own };
         if own.cross(touched.away).length() <= SAME_NORMAL {
-            return told(touched.triangle, own);
+            return facing_along(touched.triangle, own);
         }
-        let around = self.around(touched.point, corners, seen_at);
+        let around = self.around(touched.point, corners, viewpoint);
         if is_free(&around, touched.point, touched.away) {
-            return told(touched.triangle, touched.away);
+            return facing_along(touched.triangle, touched.away);
         }
         let mut best: Option<((bool, bool, f64), &Around)> = None;
-        for one in around.iter().filter(|one| one.sees) {
+        for one in around.iter().filter(|one| one.is_facing) {
             // Prefers the triangle itself, where others are no nearer.
             let nearness =
                 one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
@@ -104,11 +105,18 @@ impl OnGround<'_> {
                 best = Some((rank, one));
             }
         }
-        best.map_or(told(touched.triangle, touched.away), |(_, one)| told(one.number, one.facing))
+        best.map_or(facing_along(touched.triangle, touched.away), |(_, one)| {
+            facing_along(one.number, one.facing)
+        })
     }
 
     /// The triangles that contain a point.
-    fn around(&self, point: DVec3, corners: [DVec3; 3], seen_at: SeenAt) -> ArrayVec<Around, MOST_AROUND> {
+    fn around(
+        &self,
+        point: DVec3,
+        corners: [DVec3; 3],
+        viewpoint: Viewpoint,
+    ) -> ArrayVec<Around, MOST_AROUND> {
         let mut around = ArrayVec::new();
         let slack = ON_TRIANGLE * extent(corners);
         let bounds = box_around([point - DVec3::splat(slack), point + DVec3::splat(slack)]);
@@ -120,9 +128,9 @@ impl OnGround<'_> {
                 && holds(corners, normal, point, slack)
             {
                 let (is_in_front, is_one_sided) =
-                    (seen_at.is_in_front(corners[0], cross), self.ground.is_one_sided());
+                    (viewpoint.is_in_front(corners[0], cross), self.ground.is_one_sided());
                 let facing = if is_in_front || is_one_sided { normal } else { -normal };
-                around.push(Around { number, corners, facing, sees: is_in_front || !is_one_sided });
+                around.push(Around { number, corners, facing, is_facing: is_in_front || !is_one_sided });
             }
             if around.is_full() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });

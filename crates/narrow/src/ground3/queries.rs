@@ -6,7 +6,7 @@
 //! ```text
 //! overlap      triangles whose boxes the part's box meets: apart along the triangle's normal, or along the axis to its
 //!              nearest point; a point of it in the sphere or cuboid inside the part; else as any pair
-//! separation   a sphere that is apart from all triangles: in closed form                                   (ask_round)
+//! separation   a sphere that is apart from all triangles: in closed form                                   (sphere)
 //!              triangles in the order of their boxes' distances, up to the least separation so far:
 //!                beyond an upper bound from a point of the part and one of a triangle seen before: skipped
 //!                else it waits
@@ -20,15 +20,15 @@
 //!
 //! Between two grounds, each triangle of one is tested against the triangles of the other that are near it.
 
-use super::ask_box::Corners;
-use super::ask_sides::sphere_of;
+use super::bounds::Corners;
 use super::near::{OnGround, grown_around};
+use super::sides::sphere_of;
 use crate::answer::{Closest3, Measured3, Separation3, Tier, Verdict};
 use crate::counted::count_step;
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::pair3::{Pair3, Part, Parts, for_parts};
-use crate::polyhedron::convex::{Asked, Near, Probe, Wanted};
+use crate::polyhedron::convex::{Near, Probe, Query, Wanted};
 use crate::precision::round_down;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -39,7 +39,7 @@ use core::ops::ControlFlow;
 const MOST_WAITING: usize = 16;
 
 /// What is reported of the nearest triangle.
-pub(super) struct Told {
+pub(super) struct NearestTriangle {
     pub(super) parts: [u32; 2],
     pub(super) separation: f32,
     pub(super) normal: Vec3,
@@ -91,12 +91,12 @@ impl Pair3<'_> {
     }
 
     /// Whether any part overlaps a triangle that faces it.
-    pub(crate) fn overlaps_seen(&self, on: &OnGround) -> bool {
+    pub(crate) fn overlaps_facing(&self, on: &OnGround) -> bool {
         self.gap_of_spheres() <= 0.0 && self.any_on(on, true, |parts| parts.convex.verdict().overlapping)
     }
 
     /// Whether the answer is yes for any part and a triangle near it.
-    fn any_on(&self, on: &OnGround, only_seen: bool, mut ask: impl FnMut(&Parts) -> bool) -> bool {
+    fn any_on(&self, on: &OnGround, only_facing: bool, mut test: impl FnMut(&Parts) -> bool) -> bool {
         let bases = on.in_order([on.body_basis, on.basis]);
         on.for_body_parts(0.0, |part| {
             let placed = Corners::of(on, part);
@@ -104,13 +104,13 @@ impl Pair3<'_> {
                 count_step();
                 let corners = on.ground.corners(number);
                 let beside = placed.beside(corners);
-                let is_meant =
-                    placed.gap(&beside, 0.0) <= 0.0 && (!only_seen || on.sees(corners, placed.seen_at));
-                let mut kernels_say_so = || {
+                let is_candidate = placed.gap(&beside, 0.0) <= 0.0
+                    && (!only_facing || on.is_facing(corners, placed.viewpoint));
+                let mut by_kernels = || {
                     let triangle = on.ground.triangle(number).map(Shape3::Triangle);
-                    triangle.is_some_and(|it| ask(&self.parts_on(on, &bases, *part, (number, &it))))
+                    triangle.is_some_and(|it| test(&self.parts_on(on, &bases, *part, (number, &it))))
                 };
-                let is_yes = is_meant && (placed.holds_some(&beside) || kernels_say_so());
+                let is_yes = is_candidate && (placed.holds_some(&beside) || by_kernels());
                 if is_yes { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             flow.is_break()
@@ -133,7 +133,7 @@ impl Pair3<'_> {
 
     pub(crate) fn separation_on(&self, on: &OnGround, limit: f64) -> Separation3 {
         match self.nearest_on(on, limit, Wanted::Number) {
-            Ok((Told { separation, normal, .. }, error)) => {
+            Ok((NearestTriangle { separation, normal, .. }, error)) => {
                 Separation3::Measured(Measured3 { separation, error, normal })
             }
             Err(at_least) => Separation3::AtLeast(at_least),
@@ -141,15 +141,15 @@ impl Pair3<'_> {
     }
 
     pub(crate) fn distance_on(&self, on: &OnGround) -> Option<Closest3> {
-        let (told, error) = self.nearest_on(on, f64::INFINITY, Wanted::Closest).ok()?;
-        let [anchor_a, anchor_b] = told.closest?;
-        let Told { parts: [part_a, part_b], separation: distance, normal, .. } = told;
+        let (nearest, error) = self.nearest_on(on, f64::INFINITY, Wanted::Closest).ok()?;
+        let [anchor_a, anchor_b] = nearest.closest?;
+        let NearestTriangle { parts: [part_a, part_b], separation: distance, normal, .. } = nearest;
         Some(Closest3 { distance, error, normal, anchor_a, anchor_b, part_a, part_b })
     }
 
     /// The part and triangle with the least separation and the error that covers all others, or a bound where all are
     /// beyond the limit.
-    fn nearest_on(&self, on: &OnGround, limit: f64, wanted: Wanted) -> Result<(Told, f32), f32> {
+    fn nearest_on(&self, on: &OnGround, limit: f64, wanted: Wanted) -> Result<(NearestTriangle, f32), f32> {
         let gap = self.gap_of_spheres();
         if gap > limit {
             return Err(round_down(gap));
@@ -178,13 +178,13 @@ impl Pair3<'_> {
         on: &OnGround,
         bases: &[Basis3; 2],
         (part, wanted): (&Part, Wanted),
-        least: &mut Least<Told>,
+        least: &mut Least<NearestTriangle>,
     ) -> f64 {
         if matches!(part.shape, Shape3::Sphere(_)) && self.look_around_ball(on, part, least) {
             return least.reach();
         }
         let placed = &Corners::of(on, part);
-        let mut asker = Asker { pair: self, on, bases, part, wanted, placed, shown: None };
+        let mut kernels = KernelCalls { pair: self, on, bases, part, wanted, placed, shown: None };
         let mut waiting: ArrayVec<(f64, u32), MOST_WAITING> = ArrayVec::new();
         let mut at_most = f64::INFINITY;
         // The core's box: the box around a ball has corners that are nearer than the ball.
@@ -198,7 +198,7 @@ impl Pair3<'_> {
                     waiting.retain(|(gap, _)| !least.passes_below(*gap, at_most));
                 }
                 if let Err(full) = waiting.try_push((gap, number)) {
-                    asker.ask(full.element().1, least);
+                    kernels.measure(full.element().1, least);
                 }
             }
             least.reach().min(at_most) + radius
@@ -206,7 +206,7 @@ impl Pair3<'_> {
         waiting.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
         for (gap, number) in waiting {
             if !least.passes_below(gap, at_most) {
-                asker.ask(number, least);
+                kernels.measure(number, least);
             }
         }
         least.reach()
@@ -214,7 +214,7 @@ impl Pair3<'_> {
 }
 
 /// Calls the kernels for a part and triangles, one after the other.
-struct Asker<'s> {
+struct KernelCalls<'s> {
     pair: &'s Pair3<'s>,
     on: &'s OnGround<'s>,
     bases: &'s [Basis3; 2],
@@ -225,10 +225,10 @@ struct Asker<'s> {
     shown: Option<(DVec3, f64)>,
 }
 
-impl Asker<'_> {
+impl KernelCalls<'_> {
     /// Calls the kernels for one triangle, unless the last axis shows that it is no nearer than the nearest so far:
     /// most often both share the nearest corner or edge.
-    fn ask(&mut self, number: u32, least: &mut Least<Told>) {
+    fn measure(&mut self, number: u32, least: &mut Least<NearestTriangle>) {
         let Self { pair, on, bases, part, wanted, placed, .. } = *self;
         let beside = &placed.beside(on.ground.corners(number));
         let is_no_less = |shown: (DVec3, f64)| least.is_no_less(placed.beyond(shown, beside));
@@ -237,20 +237,20 @@ impl Asker<'_> {
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return };
         let parts = pair.parts_on(on, bases, *part, (number, &triangle));
-        match parts.convex.probe(Asked { limit: least.reach(), hint: Hint::NONE, wanted }) {
+        match parts.convex.probe(Query { limit: least.reach(), hint: Hint::NONE, wanted }) {
             Probe::Beyond(at_least, _) => least.give_up(at_least),
             Probe::Near(near) => {
                 let towards = on.basis.turn_back(parts.basis.turn(near.normal));
                 let towards = if on.is_b { towards } else { -towards };
                 self.shown = Some((towards, placed.top(part, towards)));
-                least.offer(told(&parts, &near), near.separation, near.error);
+                least.offer(nearest_triangle(&parts, &near), near.separation, near.error);
             }
         }
     }
 }
 
-fn told(parts: &Parts, near: &Near) -> Told {
-    Told {
+fn nearest_triangle(parts: &Parts, near: &Near) -> NearestTriangle {
+    NearestTriangle {
         parts: parts.indices,
         separation: near.separation,
         normal: parts.basis.turn(near.normal).as_vec3(),

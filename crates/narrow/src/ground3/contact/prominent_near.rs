@@ -4,7 +4,7 @@ use super::axes::Axes;
 use super::facet::{Facet, edge_number};
 use super::prism::Prism;
 use super::whole::touching;
-use super::{Known, Seen};
+use super::{Known, PartTest};
 use crate::feature::Feature;
 use asunder_geometry::Prominent;
 use asunder_geometry::glam::DVec3;
@@ -19,14 +19,14 @@ pub(super) enum Needs {
 }
 
 /// How much of a triangle is covered by contacts found through its neighbours.
-pub(super) enum Explained {
+pub(super) enum Covered {
     /// All of it; a lower bound on its separation.
     Wholly(f64),
     /// Penetrating points only.
     WhereDeep,
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// How the contacts of a triangle are found: by the kernels where a prominent edge or corner is so near that the
     /// triangle's normal may not be the answer. Where it is that near only because of the margin, the normal still is
     /// the answer for penetrating points.
@@ -53,7 +53,7 @@ impl Seen<'_> {
             if stands_out { facet.square_to_side(standing.center, edge) } else { f64::INFINITY }
         };
         let squares = [square(0), square(1), square(2)];
-        let counts = are_within(squares, standing.outer_radius + self.asking.reach + prism.doubt);
+        let counts = are_within(squares, standing.outer_radius + self.query.reach + prism.doubt);
         if counts == [false; 3] || prism.is_short(counts) {
             return Needs::Normal;
         }
@@ -74,11 +74,7 @@ impl Seen<'_> {
     /// How much of a triangle is covered by a contact that a neighbour gave at a shared corner or edge: along the
     /// normal of that contact, nothing else of this triangle is within reach. Where the part may be deep in the
     /// triangle, only contacts that touch count, as they would without a margin.
-    pub(super) fn explained(
-        &self,
-        (prism, axes): (&Prism, Option<&Axes>),
-        known: &Known,
-    ) -> Option<Explained> {
+    pub(super) fn covered(&self, (prism, axes): (&Prism, Option<&Axes>), known: &Known) -> Option<Covered> {
         let Prism { ground, standing, facet, doubt, .. } = *prism;
         let numbers = ground.vertex_numbers(facet.number);
         // Looked up once, and only where a point is on an edge.
@@ -108,11 +104,11 @@ impl Seen<'_> {
             if may_be_deep && pin.separation > touching() && !is_apart() {
                 return None;
             }
-            let is_wholly = is_rest_beyond(self.asking.reach);
+            let is_wholly = is_rest_beyond(self.query.reach);
             is_where_deep |= may_be_deep && !is_wholly && is_rest_beyond(touching());
-            is_wholly.then_some(Explained::Wholly(least))
+            is_wholly.then_some(Covered::Wholly(least))
         });
-        wholly.or(is_where_deep.then_some(Explained::WhereDeep))
+        wholly.or(is_where_deep.then_some(Covered::WhereDeep))
     }
 }
 

@@ -18,8 +18,8 @@
 use super::facet::Facet;
 use super::prism::Prism;
 use super::protrusion::{hidden_by, sine, window};
-use super::unsaid::Unsaid;
-use super::{Known, Seen};
+use super::rejected_gaps::ClosestPoints;
+use super::{Known, PartTest};
 use arrayvec::ArrayVec;
 use asunder_geometry::NearTriangle;
 use asunder_geometry::glam::DVec3;
@@ -27,7 +27,7 @@ use core::ops::ControlFlow;
 
 /// Most triangles for which kernels are called between two passes over all of them. Across a gap the first is most
 /// often the nearest, and its direction proves that the others are not.
-const MOST_ASKED: usize = 8;
+const MOST_CALLED: usize = 8;
 
 /// Most passes over all of them.
 const MOST_LOOKS: usize = 4;
@@ -44,17 +44,17 @@ const DEEPER: f64 = 1.0 / 1024.0;
 
 /// Triangles that may be nearer than the least separation found, with lower bounds on theirs.
 struct Open {
-    nearest: ArrayVec<(f64, u32), MOST_ASKED>,
+    nearest: ArrayVec<(f64, u32), MOST_CALLED>,
     /// A lower bound for all others.
     rest: f64,
 }
 
 /// The triangles for which kernels have been called, and what that showed.
-struct Asked {
-    numbers: ArrayVec<u32, { MOST_ASKED * MOST_LOOKS }>,
+struct Called {
+    numbers: ArrayVec<u32, { MOST_CALLED * MOST_LOOKS }>,
     /// Unit directions from the ground to the part along which closest points were found, how low the part reaches
     /// along each, in metres from its centre, and the core's point there.
-    axes: ArrayVec<(DVec3, f64, DVec3), MOST_ASKED>,
+    axes: ArrayVec<(DVec3, f64, DVec3), MOST_CALLED>,
     /// A lower bound on the separations of all of them.
     lowest: f64,
 }
@@ -64,14 +64,14 @@ impl Open {
         let place = self.nearest.partition_point(|&(known, _)| known <= bound);
         if self.nearest.is_full() {
             let last =
-                if place < MOST_ASKED { self.nearest.pop().map_or(bound, |last| last.0) } else { bound };
+                if place < MOST_CALLED { self.nearest.pop().map_or(bound, |last| last.0) } else { bound };
             self.rest = self.rest.min(last);
         }
         let _ = self.nearest.try_insert(place, (bound, number));
     }
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Makes sure that no triangle with a low bend is nearer than the least separation reported, except for what goes
     /// into the error. Whether the part is within the margin is already known, unless nothing was found for it.
     pub(super) fn bound_least(&self, known: &mut Known, is_wanted: bool) {
@@ -82,13 +82,13 @@ impl Seen<'_> {
         let floor = self.floor(known);
         known.levels.lowest = match known.levels.least_above(floor, enough) {
             Some(lowest) => lowest,
-            None => self.look_again(known),
+            None => self.search_again(known),
         };
     }
 
     /// Triangles with bounds above this need not be examined.
     fn enough(&self, known: &Known) -> f64 {
-        known.groups.least().min(self.asking.margin.into()) - LEEWAY * self.standing.slack
+        known.groups.least().min(self.query.margin.into()) - LEEWAY * self.standing.slack
     }
 
     /// Triangles with bounds below this are other ground: the closest point along a triangle's normal, up to a few low
@@ -100,95 +100,95 @@ impl Seen<'_> {
 
     /// Searches the triangles with low bends again; returns a lower bound on the separations of all of them.
     #[inline(never)]
-    fn look_again(&self, known: &mut Known) -> f64 {
-        let mut asked =
-            Asked { numbers: ArrayVec::new_const(), axes: ArrayVec::new_const(), lowest: f64::INFINITY };
+    fn search_again(&self, known: &mut Known) -> f64 {
+        let mut called =
+            Called { numbers: ArrayVec::new_const(), axes: ArrayVec::new_const(), lowest: f64::INFINITY };
         if let Some((normal, on_body)) = known.groups.nearest() {
-            self.add_axis(normal, on_body, &mut asked);
+            self.add_axis(normal, on_body, &mut called);
         }
         let mut rest = f64::INFINITY;
-        let mut is_any_told = false;
+        let mut is_any_nearer = false;
         for _ in 0..MOST_LOOKS {
-            let open = self.nearest_of_low(&asked, known);
-            is_any_told = false;
+            let open = self.nearest_of_low(&called, known);
+            is_any_nearer = false;
             for (bound, number) in open.nearest {
-                is_any_told |= self.ask(number, bound, &mut asked, known);
+                is_any_nearer |= self.call_kernels(number, bound, &mut called, known);
             }
             rest = open.rest;
             if rest >= self.enough(known) {
                 break;
             }
         }
-        if is_any_told && known.levels.is_crowded {
+        if is_any_nearer && known.levels.is_crowded {
             // To note what is hidden of the manifold that was added last.
-            let _ = self.nearest_of_low(&asked, known);
+            let _ = self.nearest_of_low(&called, known);
         }
-        asked.lowest.min(rest)
+        called.lowest.min(rest)
     }
 
-    fn add_axis(&self, normal: DVec3, on_body: DVec3, asked: &mut Asked) {
+    fn add_axis(&self, normal: DVec3, on_body: DVec3, called: &mut Called) {
         let low = self.standing.extent(normal, self.standing.center).low - self.standing.radius;
-        let _ = asked.axes.try_push((normal, low, on_body + normal * self.standing.radius));
+        let _ = called.axes.try_push((normal, low, on_body + normal * self.standing.radius));
     }
 
     /// A lower bound on a triangle's separation, by the axes known so far.
-    fn bound_by(&self, asked: &Asked, facet: &Facet) -> f64 {
+    fn bound_by(&self, called: &Called, facet: &Facet) -> f64 {
         let center = self.standing.center;
         let bound = |&(normal, low, _): &(DVec3, f64, DVec3)| {
             let top = |corner: usize| normal.dot(facet.corners[corner] - center);
             low - top(0).max(top(1)).max(top(2))
         };
-        asked.axes.iter().map(bound).fold(f64::NEG_INFINITY, f64::max)
+        called.axes.iter().map(bound).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Calls the kernels for a triangle, and reports its separation if that is less than all found; returns whether it
     /// is.
-    fn ask(&self, number: u32, bound: f64, asked: &mut Asked, known: &mut Known) -> bool {
-        let (ground, standing, enough) = (self.asking.on.ground, self.standing, self.enough(known));
-        let _ = asked.numbers.try_push(number);
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return false };
-        let bound = bound.max(self.bound_by(asked, &facet) - self.doubt_over(&facet));
+    fn call_kernels(&self, number: u32, bound: f64, called: &mut Called, known: &mut Known) -> bool {
+        let (ground, standing, enough) = (self.query.on.ground, self.standing, self.enough(known));
+        let _ = called.numbers.try_push(number);
+        let Some(facet) = Facet::facing(ground, number, standing.center) else { return false };
+        let bound = bound.max(self.bound_by(called, &facet) - self.doubt_over(&facet));
         if bound >= enough {
-            asked.lowest = asked.lowest.min(bound);
+            called.lowest = called.lowest.min(bound);
             return false;
         }
-        let found = self.meeting.nearest((ground, &facet), &standing.place, self.asking);
+        let found = self.meeting.nearest((ground, &facet), &standing.place, self.query);
         let Some((towards, found)) = found else { return false };
         let is_hidden =
             facet.normal.dot(towards) > 0.0 && facet.normal.cross(towards).length() <= window(1.0);
         if !(is_hidden || !known.overlapping && !ground.is_one_sided()) {
             return false;
         }
-        asked.lowest = asked.lowest.min(found.separation - found.doubt);
-        self.add_axis(towards, found.ends[0], asked);
+        called.lowest = called.lowest.min(found.separation - found.doubt);
+        self.add_axis(towards, found.ends[0], called);
         let is_nearer = found.separation < known.groups.least();
         if is_nearer {
-            self.tell_overlooked(found, known);
+            self.report_nearer(found, known);
         }
         is_nearer
     }
 
     /// Passes over all triangles with low bends for which no kernels were called. Where not all levels were kept, it
     /// notes what they may hide of manifolds other than the nearest.
-    fn nearest_of_low(&self, asked: &Asked, known: &mut Known) -> Open {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+    fn nearest_of_low(&self, called: &Called, known: &mut Known) -> Open {
+        let (ground, standing) = (self.query.on.ground, self.standing);
         let (floor, enough) = (self.floor(known), self.enough(known));
         let mut open = Open { nearest: ArrayVec::new_const(), rest: f64::INFINITY };
         let _ = ground.read_near(&self.bounds, |near| {
             let Some((facet, least)) = self.low(near, known).filter(|&(_, least)| least >= floor) else {
                 return ControlFlow::Continue(());
             };
-            let bound = least.max(self.bound_by(asked, &facet) - self.doubt_over(&facet));
+            let bound = least.max(self.bound_by(called, &facet) - self.doubt_over(&facet));
             if known.levels.is_crowded {
                 self.hide(facet.normal, bound, known);
             }
             let is_apart = || {
                 let beyond = enough + self.doubt_over(&facet);
-                let mut cores = asked.axes.iter().map(|&(.., core)| core);
+                let mut cores = called.axes.iter().map(|&(.., core)| core);
                 standing.is_apart((&facet, None), beyond)
                     || cores.any(|core| standing.is_apart_towards(core, &facet, beyond))
             };
-            if asked.numbers.contains(&near.number) {
+            if called.numbers.contains(&near.number) {
                 return ControlFlow::Continue(());
             }
             if bound >= enough {
@@ -205,11 +205,11 @@ impl Seen<'_> {
 
     /// A triangle, if it has a low bend, and a lower bound on its separation.
     fn low(&self, near: &NearTriangle, known: &mut Known) -> Option<(Facet, f64)> {
-        let (ground, standing, reach) = (self.asking.on.ground, self.standing, self.asking.reach);
+        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
         if !near.prominent.bends_low() {
             return None;
         }
-        let facet = Facet::seen(ground, near.number, standing.center)?;
+        let facet = Facet::facing(ground, near.number, standing.center)?;
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
         let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
@@ -219,16 +219,16 @@ impl Seen<'_> {
 
     fn hide(&self, normal: DVec3, bound: f64, known: &mut Known) {
         let radius = self.standing.outer_radius;
-        known.groups.hide(normal, bound, |told, lower| hidden_by(sine(told, normal), lower, radius));
+        known.groups.hide(normal, bound, |reported, lower| hidden_by(sine(reported, normal), lower, radius));
     }
 
-    fn tell_overlooked(&self, found: Unsaid, known: &mut Known) {
-        let told = [found.separation, found.doubt];
+    fn report_nearer(&self, found: ClosestPoints, known: &mut Known) {
+        let measured = [found.separation, found.doubt];
         let above = known.groups.least_along(found.normal) - found.separation;
         if above <= window(self.standing.outer_radius) {
-            known.groups.tell(found.normal, told);
+            known.groups.record(found.normal, measured);
         } else {
-            self.add_unsaid(&found, known);
+            self.add_rejected_gap(&found, known);
         }
     }
 }

@@ -14,7 +14,7 @@ use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
 /// The result of a kernel in closed form.
-pub(super) struct Told {
+pub(super) struct ClosedForm {
     pub(super) separation: f64,
     /// A lower bound on it.
     at_least: f64,
@@ -61,9 +61,9 @@ impl Ball {
 }
 
 impl Convex<'_> {
-    pub(super) fn told_half_spaces(&self, a: Plane, b: Plane) -> Told {
+    pub(super) fn closed_form_of_half_spaces(&self, a: Plane, b: Plane) -> ClosedForm {
         let separation = a.separation_from(&b, || exact::are_opposed3([&self.sites[0], &self.sites[1]]));
-        Told {
+        ClosedForm {
             separation,
             at_least: separation,
             normal: a.axis(),
@@ -73,7 +73,7 @@ impl Convex<'_> {
         }
     }
 
-    pub(super) fn told_half_space(&self, plane: Plane) -> Told {
+    pub(super) fn closed_form_of_half_space(&self, plane: Plane) -> ClosedForm {
         let (shape, frame) = self.shape_over(&plane);
         let vertex = plane.lowest_of(shape, frame);
         let height = plane.height(vertex);
@@ -82,12 +82,12 @@ impl Convex<'_> {
         let on_plane = vertex - plane.normal * height;
         let closest = if plane.is_b { [on_shape, on_plane] } else { [on_plane, on_shape] };
         let (normal, evidence, corners) = (plane.axis(), Evidence::HalfSpace(plane), ArrayVec::new());
-        Told { separation, at_least: separation, normal, closest, evidence, corners }
+        ClosedForm { separation, at_least: separation, normal, closest, evidence, corners }
     }
 
-    pub(super) fn told_slender(&self, a: &Slender, b: &Slender) -> Told {
+    pub(super) fn closed_form_of_slender(&self, a: &Slender, b: &Slender) -> ClosedForm {
         let nearest = slender::nearest(a, b, self.precision.projection());
-        Told {
+        ClosedForm {
             separation: nearest.distance - self.radii,
             at_least: nearest.at_least - self.radii,
             normal: nearest.normal,
@@ -116,10 +116,10 @@ impl Convex<'_> {
         }
     }
 
-    pub(super) fn told_ball(&self, ball: Ball) -> Told {
+    pub(super) fn closed_form_of_ball(&self, ball: Ball) -> ClosedForm {
         let Ball { nearest, is_b, .. } = ball;
         let separation = nearest.separation - self.radii;
-        Told {
+        ClosedForm {
             separation,
             at_least: separation,
             normal: ball.axis(),
@@ -130,22 +130,22 @@ impl Convex<'_> {
     }
 
     /// Whether the shapes overlap, given the two bounds of a closed-form kernel.
-    pub(super) fn told_verdict(&self, told: &Told) -> Verdict {
+    pub(super) fn closed_form_verdict(&self, result: &ClosedForm) -> Verdict {
         let doubt = 2.0 * self.precision.projection();
-        if told.at_least > doubt || told.separation < -doubt {
-            return Verdict { overlapping: told.separation < 0.0, tier: Tier::Bound };
+        if result.at_least > doubt || result.separation < -doubt {
+            return Verdict { overlapping: result.separation < 0.0, tier: Tier::Bound };
         }
-        self.exactly(&told.corners)
+        self.exactly(&result.corners)
     }
 
     /// The answer of [`Convex::probe`] from a closed-form kernel's result.
-    pub(super) fn told(&self, told: Told, limit: f64) -> Probe {
+    pub(super) fn probe_closed_form(&self, result: ClosedForm, limit: f64) -> Probe {
         let precision = self.precision;
-        if told.at_least > limit + precision.projection() {
-            return Probe::Beyond(at_least(told.at_least, &precision), Hint::NONE);
+        if result.at_least > limit + precision.projection() {
+            return Probe::Beyond(at_least(result.at_least, &precision), Hint::NONE);
         }
-        let verdict = self.told_verdict(&told);
-        let Told { separation, at_least: bound, normal, closest, evidence, .. } = told;
+        let verdict = self.closed_form_verdict(&result);
+        let ClosedForm { separation, at_least: bound, normal, closest, evidence, .. } = result;
         // Half-spaces that overlap without bound do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };

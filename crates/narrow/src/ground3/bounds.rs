@@ -14,7 +14,7 @@
 //! bound a separation from above.
 
 use super::contact::span_of;
-use super::near::{OnGround, SeenAt, grown_around};
+use super::near::{OnGround, Viewpoint, grown_around};
 use crate::pair3::Part;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
@@ -38,7 +38,7 @@ pub(crate) struct Corners {
     /// The centre of its bounding sphere.
     center: DVec3,
     /// Decides which side of a triangle it is on.
-    pub(crate) seen_at: SeenAt,
+    pub(crate) viewpoint: Viewpoint,
     /// How far the part reaches from `center` in every direction at least; below zero where the centre is outside it.
     inner_radius: f64,
     /// Whether `extent` is the part itself, and not a ball around it.
@@ -87,12 +87,12 @@ impl Corners {
         let reach = if let Shape3::HalfSpace(_) = shape { 0.0 } else { shape.outer_radius() };
         let lengths = summed + f64::from(reach);
         let lengths = lengths + shape.center().as_dvec3().length() + radius;
-        let seen_at = match shape {
+        let viewpoint = match shape {
             Shape3::HalfSpace(half_space) => {
                 let [x, y, z] = half_space.unit_normal().to_array();
-                SeenAt::Far(-(axes[0] * x + axes[1] * y + axes[2] * z))
+                Viewpoint::Far(-(axes[0] * x + axes[1] * y + axes[2] * z))
             }
-            _ => SeenAt::Place(center),
+            _ => Viewpoint::Place(center),
         };
         let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let inner_radius = match shape {
@@ -106,7 +106,7 @@ impl Corners {
             extent,
             radius,
             center,
-            seen_at,
+            viewpoint,
             inner_radius,
             has_all: true,
             axes,

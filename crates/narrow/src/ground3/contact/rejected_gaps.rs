@@ -18,7 +18,7 @@
 
 use super::facet::{Facet, Furthest, edge_number, is_same};
 use super::groups::{Base, Pin};
-use super::{Known, Seen, Unclear};
+use super::{Known, PartTest, Unclear};
 use crate::feature::Feature;
 use arrayvec::ArrayVec;
 use asunder_geometry::Ground;
@@ -26,7 +26,7 @@ use asunder_geometry::glam::DVec3;
 
 /// The closest points, by the kernels or a closed form, for a triangle that gave no contact point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unsaid {
+pub(super) struct ClosestPoints {
     pub(super) number: u32,
     /// In metres, below zero in overlap; and its error bound.
     pub(super) separation: f64,
@@ -37,13 +37,13 @@ pub(super) struct Unsaid {
     pub(super) normal: DVec3,
     pub(super) is_own: bool,
     /// Whether ground may be touched along it: one-sided ground has no back, and its rims give only some directions.
-    pub(super) is_meant: bool,
+    pub(super) may_touch: bool,
 }
 
 /// One per direction, the nearest first; of too many, the nearest stay.
-pub(super) type AllUnsaid = ArrayVec<Unsaid, 8>;
+pub(super) type RejectedGaps = ArrayVec<ClosestPoints, 8>;
 
-impl Unsaid {
+impl ClosestPoints {
     /// For a triangle and a unit direction from it to the part: their separation and its error bound, and their closest
     /// points.
     pub(super) fn along(
@@ -63,8 +63,8 @@ impl Unsaid {
             }
             furthest => facet.may_give(ground, furthest, towards),
         };
-        let is_meant = is_own || !ground.is_one_sided() || is_given();
-        Self { number: facet.number, separation, doubt, ends, normal, is_own, is_meant }
+        let may_touch = is_own || !ground.is_one_sided() || is_given();
+        Self { number: facet.number, separation, doubt, ends, normal, is_own, may_touch }
     }
 
     /// Whether it comes before another; of equals the one of the lower number.
@@ -75,79 +75,79 @@ impl Unsaid {
 
 impl Known {
     /// Keeps the nearest of each direction.
-    pub(super) fn leave_unsaid(&mut self, unsaid: Unsaid) {
-        if !unsaid.is_meant {
+    pub(super) fn keep_rejected_gap(&mut self, gap: ClosestPoints) {
+        if !gap.may_touch {
             return;
         }
-        let all = &mut self.unsaid;
-        let same = all.iter().position(|known| is_same(known.normal, unsaid.normal));
+        let all = &mut self.rejected_gaps;
+        let same = all.iter().position(|known| is_same(known.normal, gap.normal));
         let in_place = same.or_else(|| all.is_full().then(|| all.len() - 1));
         if let Some(place) = in_place {
-            if !unsaid.is_before(&all[place]) {
+            if !gap.is_before(&all[place]) {
                 return;
             }
             all.remove(place);
         }
-        let place = all.partition_point(|known| known.is_before(&unsaid));
-        let _ = all.try_insert(place, unsaid);
+        let place = all.partition_point(|known| known.is_before(&gap));
+        let _ = all.try_insert(place, gap);
     }
 
     /// Whether something is nearer than all contact points, by more than `slack` metres, for a part that overlaps no
     /// triangle.
-    pub(super) fn is_unsaid(&self, slack: f64) -> bool {
+    pub(super) fn has_nearer_rejected_gap(&self, slack: f64) -> bool {
         let least = self.groups.least() - slack;
-        !self.overlapping && self.unsaid.first().is_some_and(|nearest| nearest.separation < least)
+        !self.overlapping && self.rejected_gaps.first().is_some_and(|nearest| nearest.separation < least)
     }
 
     /// Records the least separation kept here, where it is that of the nearest contact point up to the slack: the
     /// points stay.
-    pub(super) fn tell_unsaid(&mut self, slack: f64) {
+    pub(super) fn record_rejected_gap(&mut self, slack: f64) {
         let least = self.groups.least();
-        if let Some(nearest) = self.unsaid.first()
+        if let Some(nearest) = self.rejected_gaps.first()
             && !self.overlapping
             && (least - slack..least).contains(&nearest.separation)
         {
-            self.groups.tell_nearest([nearest.separation, nearest.doubt]);
+            self.groups.record_nearest([nearest.separation, nearest.doubt]);
         }
     }
 }
 
-impl Seen<'_> {
+impl PartTest<'_> {
     /// Reports what was kept. Cost: some kernel calls for a part that is near two-sided ground from behind, and touches
     /// nothing.
-    pub(super) fn say(&self, known: &mut Known) {
+    pub(super) fn report_rejected_gaps(&self, known: &mut Known) {
         if !known.overlapping {
             self.look_behind(known);
         }
-        if known.unsaid.is_empty() {
+        if known.rejected_gaps.is_empty() {
             return;
         }
         let slack = self.standing.slack;
         let least = known.groups.least();
-        known.tell_unsaid(slack);
+        known.record_rejected_gap(slack);
         // By index: taking the list out would copy all of it.
-        for place in 0..known.unsaid.len() {
-            let unsaid = known.unsaid[place];
-            let along = known.groups.least_along(unsaid.normal);
-            if unsaid.is_own && (along - slack..along).contains(&unsaid.separation) {
+        for place in 0..known.rejected_gaps.len() {
+            let gap = known.rejected_gaps[place];
+            let along = known.groups.least_along(gap.normal);
+            if gap.is_own && (along - slack..along).contains(&gap.separation) {
                 // The same place up to the slack: the points stay.
-                known.groups.tell(unsaid.normal, [unsaid.separation, unsaid.doubt]);
+                known.groups.record(gap.normal, [gap.separation, gap.doubt]);
             }
-            let is_nearer = if unsaid.is_own {
-                unsaid.separation < along - slack
+            let is_nearer = if gap.is_own {
+                gap.separation < along - slack
             } else {
-                !known.overlapping && unsaid.separation < least - slack
+                !known.overlapping && gap.separation < least - slack
             };
             if is_nearer {
-                self.add_unsaid(&unsaid, known);
+                self.add_rejected_gap(&gap, known);
             }
         }
     }
 
-    pub(super) fn add_unsaid(&self, unsaid: &Unsaid, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
-        let Unsaid { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *unsaid;
-        let Some(facet) = Facet::seen(ground, number, standing.center) else { return };
+    pub(super) fn add_rejected_gap(&self, gap: &ClosestPoints, known: &mut Known) {
+        let (ground, standing) = (self.query.on.ground, self.standing);
+        let ClosestPoints { number, separation, doubt, ends: [on_body, on_ground], normal, .. } = *gap;
+        let Some(facet) = Facet::facing(ground, number, standing.center) else { return };
         // Gets the id of a side of the triangle, wherever that is: a contact between a vertex and a side is never moved
         // along, and rejected ground might come nearer on the way.
         let away = |edge: usize| facet.inside(on_ground, |other| other == edge).abs();
@@ -160,17 +160,17 @@ impl Seen<'_> {
 
     /// Calls the kernels for triangles that were taken for penetrated and are not: the part is on their other side.
     fn look_behind(&self, known: &mut Known) {
-        let (ground, standing) = (self.asking.on.ground, self.standing);
+        let (ground, standing) = (self.query.on.ground, self.standing);
         if ground.is_one_sided() || known.unclear.is_empty() {
             return;
         }
         for place in 0..known.unclear.len() {
             let Unclear { separation, number, .. } = known.unclear[place];
             if separation < -standing.slack
-                && let Some(facet) = Facet::seen(ground, number, standing.center)
-                && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.asking)
+                && let Some(facet) = Facet::facing(ground, number, standing.center)
+                && let Some(gap) = self.meeting.gap((ground, &facet), &standing.place, self.query)
             {
-                known.leave_unsaid(gap);
+                known.keep_rejected_gap(gap);
             }
         }
     }
