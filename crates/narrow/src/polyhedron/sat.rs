@@ -18,8 +18,7 @@
 //! arc of A's edge and not by the centres, which may coincide.
 //!
 //! An axis that is slightly off shows slightly less separation than the true one, never more. The possible shortfall is
-//! kept beside the best separation ([`Axes::short`]): an edge pair at a small angle widens the error of its own pair of
-//! solids only.
+//! kept beside the best separation ([`Axes::short`]): edges at a small angle widen their own pair's error only.
 //!
 //! What makes it cheap, and what each measure saved on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain
 //! test took 52 us on mixed pairs and 85 on deeply overlapping ones, and now takes 1.6 and 6.5):
@@ -52,20 +51,17 @@
 //! 10. *an expanding polytope* in place of edge pairs: 128 sides, deep, 200 us -> 18; 24 sides, 24 -> 8 (2026-11-26).
 //!
 //! Tried, and dropped:
-//!
 //! - AVX2 for the whole test behind run-time detection: 0 to 15 % slower, though the whole program compiled for it is 8
 //!   to 15 % faster, because calls across that border are not inlined; AVX2 for the support search alone: no gain;
 //! - one lane in place of eight for faces and edges: 4 times slower; no culling below 24 edges: twice as slow for 8
 //!   vertices; masks in place of eight numbers: slower in portable Rust;
-//! - the best direction of the preceding search as a first bound: no gain;
-//! - the furthest vertex as a branch-free sum of indices: 20 % slower, since branches are predicted and sums are waited
-//!   for;
+//! - the furthest vertex as a branch-free sum of indices: 20 % slower: branches are predicted, sums are waited for;
 //! - leaving an octet of arcs between the test of the two great circles and that of the meeting point: cones 15 %
 //!   faster, all else 3 to 6 % slower;
 //! - keeping the projections of a support search for its second pass: a fifth fewer instructions, no time; taking f32's
 //!   winner where no other is near: none either;
-//! - showing the corners of last frame's axis to each solid first, where that axis was not proved: crowds 2 % slower,
-//!   else nothing.
+//! - the best direction of the preceding search as a first bound: no gain; the corners of last frame's axis shown to
+//!   each solid first, where that axis was not proved: crowds 2 % slower, else nothing.
 //!
 //! Cost: linear in faces, edges and vertices; for what the spheres leave, faces times vertices and edges times edges.
 

@@ -90,8 +90,19 @@ impl Convex<'_> {
                 distance(a, b, direction, &until)
             }
         };
+        self.probe_reached((a, b), reached, (beyond, query.wanted))
+    }
+
+    /// The probe's answer from where the search for closest points ended.
+    #[inline(always)]
+    fn probe_reached(
+        &self,
+        (a, b): (&Solid, &Solid),
+        reached: Reached,
+        (beyond, wanted): (f64, Wanted),
+    ) -> Probe {
         match reached {
-            Reached::Origin(Close { is_proved: true, .. }) if query.wanted == Wanted::Closest => {
+            Reached::Origin(Close { is_proved: true, .. }) if wanted == Wanted::Closest => {
                 self.just_overlapping()
             }
             Reached::Between(witness) if witness.at_least > beyond => {
@@ -101,20 +112,20 @@ impl Convex<'_> {
                 let (verdict, is_gap) = self.conclude_gap(&witness);
                 if !is_gap {
                     let axes = self.all_axes(a, b, f64::NEG_INFINITY);
-                    return self.probe_close((a, b), axes, (verdict, Cores::Within(0.0)), query.wanted);
+                    return self.probe_close((a, b), axes, (verdict, Cores::Within(0.0)), wanted);
                 }
-                if query.wanted != Wanted::Points {
+                if wanted != Wanted::Points {
                     let hint = Hint::towards(witness.normal);
                     return self.gap_of_cores(Axes::NONE, verdict, witness, hint);
                 }
                 // The axes show which faces lie opposite each other.
                 let axes = self.face_axes(a, b, witness.at_least);
-                self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), query.wanted)
+                self.probe_close((a, b), axes, (verdict, Cores::Between(witness)), wanted)
             }
             reached => {
                 let axes = self.all_axes(a, b, f64::NEG_INFINITY);
                 let closer = self.closer(reached, Some(axes.best()));
-                self.probe_close((a, b), axes, closer, query.wanted)
+                self.probe_close((a, b), axes, closer, wanted)
             }
         }
     }
