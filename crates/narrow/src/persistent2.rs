@@ -104,7 +104,7 @@ impl Persistent2 {
         &self.manifold
     }
 
-    /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
+    /// Whether the shapes overlapped, as they do for as long as the manifold is moved along.
     pub const fn overlapping(&self) -> bool {
         self.terms.overlapping
     }
@@ -114,13 +114,13 @@ impl Persistent2 {
         self.terms.margin
     }
 
-    /// Whether the numbers beside the manifold are possible ones: for data that was read from a file.
+    /// Whether the numbers stored with the manifold are possible: for data that was read from a file.
     pub fn is_sound(&self) -> bool {
         self.terms.are_sound([self.manifold.separation, self.manifold.error])
     }
 
-    /// Appends the manifold as it is for the poses of A and B; returns false where it must be recomputed. Shapes and
-    /// margin must be those of its job. Its error includes what the drift may cost. Cost: constant, least where no body
+    /// Appends the manifold, moved along to the poses of A and B; returns false if it must be recomputed. Shapes and
+    /// margin must be those of the job. Its error includes the effect of the drift. Cost: constant, least where no body
     /// turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {
