@@ -1,26 +1,26 @@
 //! Characters: shapes that a game moves itself, among solids that they must not enter.
 //!
 //! ```text
-//! free        moves a shape out of what it overlaps, by as little as possible
-//! slide       free, then cast by cast: move, and turn the rest along what is met; steps, and the ground below
+//! free        moves a shape out of the solids that it overlaps, by as little as possible
+//! slide       free, then cast by cast: move, and turn the rest along obstacles; steps, and the ground below
 //! clip        the vector nearest to a given one that goes into no plane
 //! plane, volume   vectors and the narrow phase, for both dimensions; the methods of both worlds
 //! ```
-//! Only `free` ever puts a shape somewhere that no cast led to, and only where it overlapped something before. All
-//! else ends on a path that a cast has certified as free: this is why nothing is tunnelled and a free start stays
-//! free, whatever the planes say.
+//! Only `free` ever moves a shape to a place to which no cast led, and only if the shape overlapped a solid before. All
+//! other moves end on a path that a cast has certified as free: this is why no solid is tunnelled through and a free
+//! shape stays free, even if the planes are wrong.
 //!
 //! The loop is that of Quake's `SV_FlyMove`, with these differences:
-//! 1. What is left of the displacement keeps its own direction, and is turned along *all* planes that were met anew
-//!    each time: first its level part along walls, then all of it along planes. Where that would lead back, it ends.
-//!    Turning the turned vector again and again is what makes characters tremble in acute corners.
-//! 2. Of one convex body, the last plane takes the place of those before. Its distance has one gradient at a time,
-//!    and old planes of a dome would throw off who climbs it.
-//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So tiles of one height never show
-//!    their inner edges, and no position is ever made up.
+//! 1. The rest of the displacement keeps its original direction, and is turned along *all* planes met so far after
+//!    each cast: first its level part along walls, then all of it along planes. If the result would lead back, the
+//!    move ends. Turning the already turned vector again and again makes characters tremble in acute corners.
+//! 2. For one convex body, the last plane replaces those before. Its distance has one gradient at a time, and old
+//!    planes of a dome would throw off a character that climbs it.
+//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So the inner edges of tiles of one
+//!    height are never met, and every position is on a cast's path.
 //!
-//! Pushing out is Hildreth's method (1957) on the planes of all manifolds near, as in the mover of Box2D v3.1: least in
-//! length where the planes are all there is, and right again after a few rounds where they are not.
+//! Pushing out is Hildreth's method (1957) on the planes of all nearby manifolds, as in the mover of Box2D v3.1: the
+//! shortest way if these planes describe all of the solids nearby, and corrected within a few rounds if they do not.
 
 mod clip;
 mod free;

@@ -1,4 +1,4 @@
-//! What changed between two updates.
+//! Events: contacts that began or ended between two updates.
 
 use crate::contact::other_of;
 use crate::space::{BodyKey2, BodyKey3};

@@ -1,8 +1,8 @@
 //! Callbacks of a game during an update: they decide which bodies may pair, and edit contacts.
 //!
-//! A hook is given what the engine found and decides what becomes of it; it never sees a half-finished stage. Hooks are
+//! A hook is given a result of the engine and may reject or edit it; it never sees a half-finished stage. Hooks are
 //! called in pair order, and their answers are not kept for the next update: pairs that they rejected are found again,
-//! and edits start anew from the narrow phase's result.
+//! and edits start again from the narrow phase's result.
 
 use crate::collider::Collider;
 use crate::contact::Record;

@@ -45,7 +45,7 @@ slotmap::new_key_type! {
     pub struct BodyKey3;
 }
 
-/// What a moving body may run into.
+/// The bodies that a moving body may run into.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum RunsInto<'f, S: Space> {
@@ -113,7 +113,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     type Motion: Copy + PartialEq + Debug + Send + Sync;
     /// The result of a time-of-impact query: when two bodies first touch.
     type Impact: Copy + PartialEq + Debug + Send + Sync;
-    /// What a body touches, other than the second body of a pair.
+    /// A touch of a body with one other than the second body of a pair.
     #[doc(hidden)]
     type Touch: Copy + Debug + Send + Sync;
     /// One pair for the narrow phase.
@@ -121,7 +121,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     type Job<'a>: Send + Sync;
 
     /// Runs one frame. Its definitions are not generic, so it is compiled with this crate and its optimisation:
-    /// otherwise a game that calls [`World::update`] would compile all of it anew, and in a debug build run it
+    /// otherwise a game that calls [`World::update`] would compile all of it again, and in a debug build run it
     /// unoptimised.
     #[doc(hidden)]
     fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>);
@@ -167,8 +167,8 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions somewhere they do not touch at the start, and the fraction of the
-    /// motions until then. Where either is a sensor and they overlap already, there is no impact with other parts.
-    /// Where both are solid, the first passes over whatever is flush with what it touches.
+    /// motions until then. Where either is a sensor and they overlap already, there is no impact with other parts. If
+    /// both are solid, the first passes over parts that are flush with those that it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],
@@ -218,7 +218,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn reclaim(spare: &mut Self::Spare, kept: &mut Self::Persistent);
 
-    /// Appends a persistent manifold's manifolds, moved along; `None` if they have to be made anew, since bodies
+    /// Appends a persistent manifold's manifolds, moved along; `None` if they have to be recomputed, since bodies
     /// drifted, margins changed, or one has become a sensor.
     #[doc(hidden)]
     fn carry_on(

@@ -72,7 +72,7 @@ pub struct World<S: Space> {
     /// Slots whose body moved, came or went since candidates were last collided, and the same as a flag a slot.
     pub(crate) moved: Vec<u32>,
     pub(crate) is_moved: Vec<bool>,
-    /// Slots whose body has got another shape since then: what is known from the old one is void.
+    /// Slots whose body has got another shape since then: results for the old one are void.
     pub(crate) reshaped: Vec<u32>,
     /// How far the body in each slot has moved.
     pub(crate) odometers: Vec<Odometer>,

@@ -51,8 +51,8 @@ pub enum Ground<'a> {
 }
 
 /// Which edges and corners of a triangle may give a contact a normal other than the triangle's: those at which the
-/// ground bends away from the body, or ends. It also says whether some edge has so low a bend that all normals along it
-/// count as the triangle's. Conservative: a bit may be set needlessly.
+/// ground bends away from the body, or ends. It also shows whether some edge has so low a bend that all normals along
+/// it count as the triangle's. Conservative: a bit may be set needlessly.
 ///
 /// ```
 /// use asunder_geometry::Prominent;

@@ -6,7 +6,7 @@
 /// Gap, as a share of a pair's size, at which a cast in the plane reports two shapes as touching.
 ///
 /// A cast advances by separating axes until the gap is this small, and takes the last step along the axis that it has
-/// then; what is left is in the impact's error, and is mostly rounding. A pair that passes by within this gap counts as
+/// then; the rest is in the impact's error, and is mostly rounding. A pair that passes by within this gap counts as
 /// touching. A larger value turns wider misses into hits; with a smaller one the axis across the last gap, and so the
 /// normal, is rounding (1e-16 of the size over the gap).
 pub const CAST_GAP2: f64 = 1e-8;
@@ -167,20 +167,20 @@ pub const BEHIND_END: f64 = 0.2;
 /// smaller one would reject rotations that were made here.
 pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
 
-/// Default of the gap that a character keeps between itself and everything, as a share of its bounding radius.
+/// Default of the gap that a character keeps to all solids, as a share of its bounding radius.
 ///
 /// It must be far above the rounding of positions and the error of casts, so that a character that slides along a
 /// floor never meets the inner edges of its tiles; a larger one becomes visible as hovering.
 pub const SKIN: f32 = 0.01;
 
-/// The least gap that a character keeps between itself and everything, as a share of its bounding radius, and by how
-/// much it is pushed clear of solids.
+/// The least gap that a character keeps to all solids, as a share of its bounding radius, and by how much it is pushed
+/// clear of them.
 ///
-/// A smaller one comes near the error of casts (1e-6 of a pair's size), so that a character could touch what it slides
-/// along.
+/// A smaller one comes near the error of casts (1e-6 of a pair's size), so that a character could touch the surface
+/// along which it slides.
 pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 
-/// Share of its skin by which a character may be too near to something before it is moved away.
+/// Share of its skin by which a character may be too near to a solid before it is moved away.
 ///
 /// Without slack every frame would move it to undo the rounding of the last. With a larger one the gap changes visibly
 /// while it slides.

@@ -99,7 +99,7 @@ pub enum Separation2 {
 }
 
 impl Separation2 {
-    /// What was measured; nothing beyond the caller's limit.
+    /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Pose2, Shape2};
@@ -145,7 +145,7 @@ pub enum Separation3 {
 }
 
 impl Separation3 {
-    /// What was measured; nothing beyond the caller's limit.
+    /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
     /// use asunder_geometry::{Sphere, Pose3, Shape3};

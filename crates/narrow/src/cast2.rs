@@ -16,7 +16,7 @@
 //!
 //! For shapes that turn as well, conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body
 //! systems", 1996) bounds the speed of every point by its arm and the angular speed. It converges slowly where a rod
-//! spins fast and closes slowly. What is done instead:
+//! spins fast and closes slowly. Instead:
 //! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration and
 //!    squared speed). So between two times D apart the gap is at least the lesser of the gaps at both, less M D^2 / 8:
 //!    two projections certify a whole stretch. The longest such stretch is found by regula falsi, at two supports a
@@ -348,7 +348,7 @@ fn sum(v: DVec2) -> f64 {
     v.abs().element_sum()
 }
 
-/// What a moving body's own position rounds to.
+/// The rounding error of a moving body's own position.
 fn position_of(pose: &Pose2) -> f64 {
     sum(pose.position())
 }

@@ -34,8 +34,8 @@ use part::{Part, for_parts, for_parts_in, for_parts_near};
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | chain, anything | the least of its segments' | the same | a manifold for each normal of what is touched |
 ///
-/// Radii (of circles, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
-/// subtracted. A segment has two edges, back to back.
+/// Radii (of circles, capsules, and shapes that are `rounded`) come last: the kernels work on the cores, and both radii
+/// are subtracted. A segment has two edges, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
@@ -100,7 +100,7 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which.
+    /// [`verdict`](Self::verdict) reports which.
     ///
     /// Cost:
     /// - Constant where circles around or inside the shapes decide, and for rectangles.

@@ -46,8 +46,8 @@ pub(crate) use parts::Parts;
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | mesh or height field, anything | the least of its triangles' near the other | the same | a manifold for each normal of a part |
 ///
-/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
-/// subtracted. Triangles and flat hulls have two faces, back to back.
+/// Radii (of spheres, capsules, and shapes that are `rounded`) come last: the kernels work on the cores, and both radii
+/// are subtracted. Triangles and flat hulls have two faces, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -459,8 +459,8 @@ pub(crate) fn limit_of(limit: f32) -> f64 {
     if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) }
 }
 
-/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the reported number
-/// decides.
+/// How far apart shapes may be for a contact: a separation that rounds to the margin counts as within it, since the
+/// reported number decides.
 #[inline]
 pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()

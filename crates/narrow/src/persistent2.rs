@@ -51,7 +51,7 @@ pub struct Persistent2 {
 }
 
 impl Persistent2 {
-    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
+    /// The persistent manifold of an answer to a job; `manifolds` are those of the answer's batch.
     ///
     /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
     /// where they touch in several parts; and where a point is on no edge, as between corners across a gap. Cost: a
@@ -80,7 +80,7 @@ impl Persistent2 {
         terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
-    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` if bodies that continue at that speed
     /// would have drifted too far by the next.
     pub fn lasting(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2], step: f64) -> Option<Self> {
         if step > f64::from(Self::most_reach(job)) {

@@ -140,7 +140,7 @@ impl Persistent3 {
         Self::made((job, answer, manifolds), &mut Spare3::default())
     }
 
-    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` if bodies that continue at that speed
     /// would have drifted too far by the next.
     pub fn lasting(
         job: &Job3<'_>,

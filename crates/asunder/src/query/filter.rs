@@ -167,7 +167,7 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Finds what is touched at the start, too: for a character, which stands on something.
+    /// Also finds bodies that are touched at the start: for a character, which stands on one.
     pub(crate) const fn with_touched(mut self) -> Self {
         self.is_apart = false;
         self

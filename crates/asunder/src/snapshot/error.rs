@@ -1,8 +1,8 @@
-//! Why a snapshot was refused.
+//! Why a snapshot was rejected.
 
 use crate::collider::MarginError;
 
-/// Why a snapshot was refused.
+/// Why a snapshot was rejected.
 ///
 /// ```
 /// use asunder::{Snapshot2, SnapshotError, World2};
@@ -23,14 +23,14 @@ pub enum SnapshotError {
     Shape {
         /// The number of the shape among those of its kind, or the slot of the body.
         index: usize,
-        /// What is wrong with it.
+        /// Why it is invalid.
         reason: String,
     },
     /// A body's margin is invalid.
     Margin {
         /// The body's slot.
         slot: usize,
-        /// What is wrong with it.
+        /// Why it is invalid.
         error: MarginError,
     },
     /// The version of a slot is even or too great, or the distance that its body has moved is not a possible number.
