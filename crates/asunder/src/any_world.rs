@@ -7,11 +7,11 @@ use crate::motion::Hit;
 use crate::space::Space;
 use crate::world::{StaleKey, World};
 
-/// What a game loop calls, where the dimension is a type parameter.
+/// The calls of a game loop, for code in which the dimension is a type parameter.
 ///
-/// [`World2`](crate::World2) and [`World3`](crate::World3) have these calls, and all others, in plain types, which come
-/// first wherever the dimension is known: bring this trait in only for code that is generic over a [`Space`]. Meanings,
-/// errors and costs are those of the calls of the same names there.
+/// [`World2`](crate::World2) and [`World3`](crate::World3) have these calls, and all others, in plain types, and theirs
+/// take precedence where the dimension is known: import this trait only for code that is generic over a [`Space`].
+/// Meanings, errors and costs are those of the calls of the same names there.
 ///
 /// ```
 /// use asunder::{AnyWorld, Circle, Collider, Collider2, Collider3, Space, Sphere, StaleKey, World};
@@ -40,7 +40,7 @@ pub trait AnyWorld<S: Space> {
     /// Adds a body: [`World3::insert`](crate::World3::insert).
     fn insert(&mut self, collider: Collider<S>) -> S::Key;
 
-    /// Takes a body out and returns it: [`World3::remove`](crate::World3::remove).
+    /// Removes a body and returns it: [`World3::remove`](crate::World3::remove).
     fn remove(&mut self, key: S::Key) -> Option<Collider<S>>;
 
     /// The body of a key: [`World3::get`](crate::World3::get).
@@ -58,19 +58,20 @@ pub trait AnyWorld<S: Space> {
     /// A stale key.
     fn set_pose(&mut self, key: S::Key, pose: S::Pose) -> Result<(), StaleKey>;
 
-    /// Tells the next update how a body will move in this frame: [`World3::set_motion`](crate::World3::set_motion).
+    /// Announces to the next update how a body will move in this frame:
+    /// [`World3::set_motion`](crate::World3::set_motion).
     ///
     /// # Errors
     /// A stale key.
     fn set_motion(&mut self, key: S::Key, motion: S::Motion) -> Result<(), StaleKey>;
 
-    /// Notes that a body is at rest: [`World3::sleep`](crate::World3::sleep).
+    /// Marks a body as at rest: [`World3::sleep`](crate::World3::sleep).
     ///
     /// # Errors
     /// A stale key.
     fn sleep(&mut self, key: S::Key) -> Result<(), StaleKey>;
 
-    /// Notes that a body is no longer at rest: [`World3::wake`](crate::World3::wake).
+    /// Marks a body as no longer at rest: [`World3::wake`](crate::World3::wake).
     ///
     /// # Errors
     /// A stale key.
@@ -79,13 +80,13 @@ pub trait AnyWorld<S: Space> {
     /// Pairs whose boxes overlapped: [`World3::candidates`](crate::World3::candidates).
     fn candidates(&self) -> impl ExactSizeIterator<Item = (S::Key, S::Key)> + Clone;
 
-    /// Those of one body: [`World3::candidates_of`](crate::World3::candidates_of).
+    /// Candidates of one body: [`World3::candidates_of`](crate::World3::candidates_of).
     fn candidates_of(&self, key: S::Key) -> impl Iterator<Item = (S::Key, S::Key)> + Clone;
 
     /// Pairs within their margins of each other: [`World3::contacts`](crate::World3::contacts).
     fn contacts(&self) -> impl ExactSizeIterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone;
 
-    /// Those of one body: [`World3::contacts_of`](crate::World3::contacts_of).
+    /// Contacts of one body: [`World3::contacts_of`](crate::World3::contacts_of).
     fn contacts_of(&self, key: S::Key) -> impl Iterator<Item = Contact<'_, S::Key, S::Manifold>> + Clone;
 
     /// The contact of two bodies: [`World3::contact`](crate::World3::contact).
@@ -97,13 +98,13 @@ pub trait AnyWorld<S: Space> {
     /// The bodies that touch this one: [`World3::touching`](crate::World3::touching).
     fn touching(&self, key: S::Key) -> impl Iterator<Item = S::Key> + Clone;
 
-    /// What began and what ended: [`World3::events`](crate::World3::events).
+    /// The contacts that began and ended: [`World3::events`](crate::World3::events).
     fn events(&self) -> &[Event<S::Key>];
 
-    /// What bullets ran into: [`World3::impacts`](crate::World3::impacts).
+    /// The impacts of bullets: [`World3::impacts`](crate::World3::impacts).
     fn impacts(&self) -> &[Hit<S::Key, S::Impact>];
 
-    /// What one bullet ran into: [`World3::impacts_of`](crate::World3::impacts_of).
+    /// The impacts of one bullet: [`World3::impacts_of`](crate::World3::impacts_of).
     fn impacts_of(&self, bullet: S::Key) -> impl Iterator<Item = &Hit<S::Key, S::Impact>> + Clone;
 }
 

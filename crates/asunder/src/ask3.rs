@@ -13,19 +13,19 @@ use asunder_narrow::Manifold3;
 use core::ops::ControlFlow;
 
 /// # Queries
-/// Queries see bodies where they are, even before the next update. Any number of threads may ask at once. A [`Filter3`]
-/// says which bodies a query may find.
+/// Queries see bodies at their current poses, even before the next update. Any number of threads may query at once. A
+/// [`Filter3`] decides which bodies a query may find.
 ///
 /// - Lists are cleared first, and sorted by distance, then by the bodies' slots (lists without distances, by slots).
-/// - Visitors get answers in no promised order, until they break off.
+/// - Visitors receive answers in no promised order, until they break off.
 ///
-/// Cost: the first query makes a tree of all boxes, in 50 to 120 ns per body, which is kept while few bodies move. For
-/// those that have moved since, the first query after an update makes a second one. Then, a query takes a walk down
-/// both trees, and the narrow phase of every body whose box is met. Once memory is there, nothing allocates but the
-/// caller's lists.
+/// Cost: the first query builds a tree of all boxes, in 50 to 120 ns per body, which is kept while few bodies move. For
+/// those that have moved since, the first query after an update builds a second tree. Each query then traverses both
+/// trees, and runs the narrow phase for every body whose box is met. Once memory has grown to its full size, only the
+/// caller's lists allocate.
 impl World<Volume> {
-    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse way to ask what is in a region. A
-    /// body's box is the one around its shape as it stands, rounded outwards, without its margin.
+    /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse test for bodies in a region. A
+    /// body's box is the one around its shape at its current pose, rounded outwards, without its margin.
     ///
     /// ```
     /// use asunder::{Aabb3, Collider3, Filter3, Sphere, World3, glam::Vec3};
@@ -69,8 +69,8 @@ impl World<Volume> {
         boxes_over(self, bounds, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// Bodies that hold a point, in metres; the surface counts. Exact. No body holds a point that is not finite, or
-    /// beyond 1e9 m on an axis.
+    /// Bodies that contain a point, in metres; the surface counts. Exact. No body contains a point that is not finite,
+    /// or beyond 1e9 m on an axis.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Cuboid, World3, glam::Vec3};
@@ -163,14 +163,15 @@ impl World<Volume> {
         bodies_over(self, at, filter).visit(|Met(body)| visitor(body))
     }
 
-    /// How a posed shape touches what is here, as a body there would. For placing something, or for moving a body that
-    /// is in no world; which bodies touch each other is in [`World::contacts`].
+    /// The manifolds of a posed shape with the bodies of the world, as a body there would have them. For placing
+    /// something, or for moving a body that is in no world; for contacts between bodies of the world, read
+    /// [`World::contacts`].
     ///
-    /// There is one manifold for each pair of convex parts, and on ground for each normal, at most `margin` metres
-    /// apart. Each comes with its body: by slot, then in the order of [`Pair3::manifolds`](crate::Pair3::manifolds).
-    /// Normals point from the shape to the body; `a` is the shape, and `b` the body.
-    ///
-    /// Sensors are found, unless the filter leaves them out. A NaN counts as a margin of 0.
+    /// - There is one manifold for each pair of convex parts, on ground one for each normal, at most `margin` metres
+    ///   apart; a NaN counts as a margin of 0.
+    /// - Each comes with its body: by slot, then in the order of [`Pair3::manifolds`](crate::Pair3::manifolds).
+    /// - Normals point from the shape to the body; `a` is the shape, and `b` the body.
+    /// - Sensors are found, unless the filter leaves them out.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Pose3, Cuboid, Shape3, World3, glam::Vec3};
@@ -194,7 +195,7 @@ impl World<Volume> {
         manifolds((self, filter), at, margin, into);
     }
 
-    /// Like [`World::manifolds`], but one by one: those of a body in order and together, bodies in no promised order.
+    /// Like [`World::manifolds`], but one by one: those of one body together and in order, bodies in no promised order.
     /// Nothing is copied.
     ///
     /// ```
@@ -221,10 +222,10 @@ impl World<Volume> {
         visit_manifolds((self, filter), at, margin, visitor)
     }
 
-    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres). Of
-    /// bodies equally near, the one in the lowest slot. A body that contains the point is at distance 0.
+    /// The body closest to a point, and the closest point on it, if that is within a distance (all in metres). Among
+    /// bodies equally near, the one in the lowest slot is found. A body that contains the point is at distance 0.
     ///
-    /// A `within` that is NaN counts as no limit, and a negative one as zero. Nothing is near a point that is not
+    /// A `within` that is NaN counts as no limit, and a negative one as zero. No body is found for a point that is not
     /// finite, or beyond 1e9 m on an axis.
     ///
     /// ```
@@ -299,8 +300,8 @@ impl World<Volume> {
         bodies_near(self, (&shape, &pose), within, filter).visit(visitor)
     }
 
-    /// The body closest to a posed shape, and the closest points of both, if one is within a distance. Of bodies
-    /// equally near, the one in the lowest slot. A body that overlaps the shape is at distance 0.
+    /// The body closest to a posed shape, and the closest points of both, if they are within a distance, in metres.
+    /// Among bodies equally near, the one in the lowest slot is found. A body that overlaps the shape is at distance 0.
     ///
     /// A `within` that is NaN counts as no limit, and a negative one as zero.
     ///

@@ -1,26 +1,26 @@
 //! Characters: shapes that a game moves itself, among solids that they must not enter.
 //!
 //! ```text
-//! free        moves a shape out of what it overlaps, by as little as possible
-//! slide       free, then cast by cast: move, and turn the rest along what is met; steps, and the ground below
+//! free        moves a shape out of the solids that it overlaps, by as little as possible
+//! slide       free, then cast by cast: move, and turn the rest along obstacles; steps, and the ground below
 //! clip        the vector nearest to a given one that goes into no plane
 //! plane, volume   vectors and the narrow phase, for both dimensions; the methods of both worlds
 //! ```
-//! Only `free` ever puts a shape somewhere that no cast led to, and only where it overlapped something before. All
-//! else ends on a path that a cast has certified as free: this is why nothing is tunnelled and a free start stays
-//! free, whatever the planes say.
+//! Only `free` ever moves a shape to a place to which no cast led, and only if the shape overlapped a solid before. All
+//! other moves end on a path that a cast has certified as free: this is why no solid is tunnelled through and a free
+//! shape stays free, even if the planes are wrong.
 //!
 //! The loop is that of Quake's `SV_FlyMove`, with these differences:
-//! 1. What is left of the displacement keeps its own direction, and is turned along *all* planes that were met anew
-//!    each time: first its level part along walls, then all of it along planes. Where that would lead back, it ends.
-//!    Turning the turned vector again and again is what makes characters tremble in acute corners.
-//! 2. Of one convex body, the last plane takes the place of those before. Its distance has one gradient at a time,
-//!    and old planes of a dome would throw off who climbs it.
-//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So tiles of one height never show
-//!    their inner edges, and no position is ever made up.
+//! 1. The rest of the displacement keeps its original direction, and is turned along *all* planes met so far after
+//!    each cast: first its level part along walls, then all of it along planes. If the result would lead back, the
+//!    move ends. Turning the already turned vector again and again makes characters tremble in acute corners.
+//! 2. For one convex body, the last plane replaces those before. Its distance has one gradient at a time, and old
+//!    planes of a dome would throw off a character that climbs it.
+//! 3. A gap is kept along the normal, by stopping short on the cast's own path. So the inner edges of tiles of one
+//!    height are never met, and every position is on a cast's path.
 //!
-//! Pushing out is Hildreth's method (1957) on the planes of all manifolds near, as in the mover of Box2D v3.1: least in
-//! length where the planes are all there is, and right again after a few rounds where they are not.
+//! Pushing out is Hildreth's method (1957) on the planes of all nearby manifolds, as in the mover of Box2D v3.1: the
+//! shortest way if these planes describe all of the solids nearby, and corrected within a few rounds if they do not.
 
 mod clip;
 mod free;
@@ -37,12 +37,13 @@ use asunder_narrow::ArrayVec;
 use core::cmp::Ordering;
 use core::ops::{Add, Mul, Neg, Sub};
 
-/// How a character walks: what is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`] or
-/// [`Walk3`].
+/// How a character walks: which way is up, what it can stand on and climb. `N` is a vector of f32; use it as [`Walk2`]
+/// or [`Walk3`].
 ///
-/// Make one with `new` and change the fields that your game wants different. All lengths are in metres; one that is NaN
-/// or below zero counts as zero, and one above 1e6 as that. The skin is never less than 1/4096 of the shape's bounding
-/// radius, nor than 2^-46 of its distance from the origin.
+/// Create one with `new` and change fields as your game requires.
+/// - All lengths are in metres. A length that is NaN or below zero counts as zero, and one above 1e6 as 1e6.
+/// - The skin is never less than 1/4096 of the shape's bounding radius, nor less than 2^-46 of its distance from the
+///   origin.
 ///
 /// ```
 /// use asunder::{Capsule3, Shape3, Walk3, glam::Vec3};
@@ -54,20 +55,20 @@ use core::ops::{Add, Mul, Neg, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Walk<N> {
-    /// Which way is up; its length does not matter. Zero for a character that has no ground, such as one that flies.
+    /// The upward direction, of any length. Zero for a character that has no ground, such as one that flies.
     pub up: N,
-    /// The gap that is kept to everything. Default: a hundredth of the shape's bounding radius.
+    /// The gap that is kept to all solids. Default: a hundredth of the shape's bounding radius.
     pub skin: f32,
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: anything steeper is a wall.
-    /// Default: 0.7, which is 45.6 degrees; a NaN counts as that, and less than 1e-3 as 1e-3.
+    /// Default: 0.7, which is 45.6 degrees. A NaN counts as 0.7, and less than 1e-3 as 1e-3.
     pub steepest: f32,
-    /// The highest step that is climbed, give or take half a skin; 0 for none. Anything higher is a wall, except for
-    /// round feet of radius r: whatever the step, they walk over an edge up to (1 - `steepest`) r high, by default 0.3
-    /// r, since what they touch of it is no steeper than ground. Default: 0.35 of the shape's bounding radius, a third
-    /// of a metre for an adult.
+    /// The highest step that is climbed, to within half a skin; 0 for none. Anything higher is a wall. Round feet of
+    /// radius r are an exception: whatever the step, they walk over an edge up to (1 - `steepest`) r high, by default
+    /// 0.3 r, since the normal at the edge is then no steeper than that of ground. Default: 0.35 of the shape's
+    /// bounding radius, a third of a metre for an adult.
     pub step: f32,
-    /// How far down a character follows the ground that it stood on, unless it moves up; 0 to switch that off. Default:
-    /// the same as `step`.
+    /// How far down a character follows the ground on which it stood, unless it moves up; 0 to switch that off.
+    /// Default: the same as `step`.
     pub snap: f32,
 }
 
@@ -95,10 +96,10 @@ pub type Walk3 = Walk<Vec3>;
 pub struct Freed<O, P> {
     /// Where the shape is now. Its rotation is kept.
     pub pose: O,
-    /// How it was moved to be there, in metres. Zero where it was free already.
+    /// The displacement by which it was moved there, in metres. Zero if it was free already.
     pub moved: P,
-    /// Whether it overlaps no solid now; touching counts as overlapping. Exact. One-sided ground that it is behind does
-    /// not count as overlapped.
+    /// Whether the shape overlaps no solid now; touching counts as overlapping. Exact. One-sided ground does not count
+    /// while the shape is behind it.
     pub is_free: bool,
 }
 
@@ -108,7 +109,7 @@ pub type Freed2 = Freed<Pose2, DVec2>;
 /// A place in space that is free of solids, or as free as could be found.
 pub type Freed3 = Freed<Pose3, DVec3>;
 
-/// What a character stands on, or met. `K` is a key, `N` a vector of f32, `P` a point of f64; use it as
+/// A body that a character stands on, or met. `K` is a key, `N` a vector of f32, `P` a point of f64; use it as
 /// [`Obstacle2`] or [`Obstacle3`].
 ///
 /// ```
@@ -130,20 +131,20 @@ pub struct Obstacle<K, N, P> {
     pub body: K,
     /// Unit normal in world axes, from the body to the character.
     pub normal: N,
-    /// Where they would meet, on the body, in metres.
+    /// The point on the body where they would meet, in metres.
     pub point: P,
     /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
 }
 
-/// What a character in the plane stands on, or met.
+/// A body that a character in the plane stands on, or met.
 pub type Obstacle2 = Obstacle<BodyKey2, Vec2, DVec2>;
 
-/// What a character in space stands on, or met.
+/// A body that a character in space stands on, or met.
 pub type Obstacle3 = Obstacle<BodyKey3, Vec3, DVec3>;
 
-/// How far a character came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32 and `P` one of f64; use
-/// it as [`Slide2`] or [`Slide3`].
+/// The result of a character's move: how far it came, and what it met. `K` is a key, `O` a pose, `N` a vector of f32
+/// and `P` one of f64; use it as [`Slide2`] or [`Slide3`].
 ///
 /// ```
 /// use asunder::{Collider3, Filter3, HalfSpace, Obstacle3, Pose3, Shape3, Slide3, Sphere, Walk3, World3, glam::Vec3};
@@ -162,32 +163,35 @@ pub type Obstacle3 = Obstacle<BodyKey3, Vec3, DVec3>;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide<K, O, N, P> {
-    /// Where it is now. Its rotation is kept.
+    /// Where the character is now. Its rotation is kept.
     pub pose: O,
-    /// How it came there, as one vector, in metres.
+    /// The displacement from its old to its new position, in metres.
     pub moved: P,
-    /// What it stands on at the end, if anything: ground no steeper than it can walk on, or the edge of a step. For a
-    /// round foot beside an edge, the normal is the foot's own and may be nearly horizontal, the gap may be some skins,
-    /// and the lowest point up to a step below the edge.
+    /// The ground that it stands on at the end, if any: a surface that it can walk on, or the edge of a step. For a
+    /// round foot beside an edge, the normal is that of the foot and may be nearly horizontal, the gap may be several
+    /// skins, and the lowest point of the foot may be up to a step below the edge.
     pub ground: Option<Obstacle<K, N, P>>,
-    /// What it met that it cannot stand on or does not get up on (walls, ceilings and kerbs), in the order in which it
-    /// met them; first upright walls that it was closer to than its skin, and goes into. No more than eight.
+    /// The obstacles that it met and cannot stand on or climb (walls, ceilings and kerbs), at most eight. First come
+    /// upright walls to which it was closer than its skin and into which it moves, then all others in the order in
+    /// which it met them.
     ///
-    /// If it did not go all of the way, the reason is here or in `ground`. But ground that turned a jump aside, ground
-    /// that broke a fall and was left again within the same displacement, and what rounding would have led into (then
-    /// it stays where it was free) are reported nowhere: compare `moved` with what was asked for.
+    /// If it did not cover the whole displacement, the reason is here or in `ground`, except for the following, which
+    /// are not reported: to detect them, compare `moved` with the requested displacement.
+    /// - ground that deflected a jump;
+    /// - ground that broke a fall and was left again within the same displacement;
+    /// - an obstacle that it would have entered by rounding (then it stays where it was free).
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
-    /// Whether walls took all that was left of the displacement: it stands before one, or in a corner.
+    /// Whether walls stopped all that was left of the displacement: it stands before a wall, or in a corner.
     pub blocked: bool,
-    /// Whether it overlaps no solid now, apart from one-sided ground that it came through from behind. Always so where
-    /// it overlapped none before; exact.
+    /// Whether it overlaps no solid now, apart from one-sided ground through which it came from behind. Exact. Always
+    /// true if it overlapped none before.
     pub is_free: bool,
 }
 
-/// How far a character in the plane came, and what it met.
+/// The result of the move of a character in the plane.
 pub type Slide2 = Slide<BodyKey2, Pose2, Vec2, DVec2>;
 
-/// How far a character in space came, and what it met.
+/// The result of the move of a character in space.
 pub type Slide3 = Slide<BodyKey3, Pose3, Vec3, DVec3>;
 
 /// An f64 vector, as far as characters need it.

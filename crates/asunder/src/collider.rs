@@ -1,16 +1,16 @@
-//! What a body is to the engine: shape, pose, and whom it may meet.
+//! Bodies as the engine sees them: shape, pose, and which other bodies they may meet.
 
 use crate::space::{Plane, Space, Volume};
 use crate::world::StaleKey;
 use asunder_geometry::{Pose2, Pose3, Shape2, Shape3};
 
-/// Which groups a body is in, and which it meets.
+/// Which groups a body is in, and which groups it meets.
 ///
-/// Two bodies pair only if each is in a group that the other meets. A body that was given no layers is in all groups:
-/// so a coin that meets only players also meets every crate that was given none.
+/// Two bodies pair only if each is in a group that the other meets. A body without layers of its own is in all groups
+/// and meets all groups: so a coin that meets only players also meets every crate for which no layers were set.
 ///
-/// Overlapping boxes are found before layers are checked, and cost time: 10,000 bodies in one spot, on a layer that
-/// does not meet itself, take a third of a second when they come.
+/// Cost: overlapping boxes are found before layers are checked, and take time. 10,000 bodies in one spot, on a layer
+/// that does not meet itself, take a third of a second in the update in which they appear.
 ///
 /// ```
 /// use asunder::Layers;
@@ -36,8 +36,8 @@ impl Layers {
     }
 }
 
-/// Decides whether two bodies may pair at all, wherever they are. Small, and stored apart from all else, since the
-/// broad phase reads it for every pair of overlapping boxes.
+/// Decides whether two bodies may pair at all, wherever they are. Small, and stored apart from everything else, since
+/// the broad phase reads it for every pair of overlapping boxes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Tag {
     layers: Layers,
@@ -64,13 +64,13 @@ impl Tag {
 }
 
 impl Default for Layers {
-    /// In every group, and meeting every group.
+    /// A member of every group that meets every group.
     fn default() -> Self {
         Self { member_of: u32::MAX, collides_with: u32::MAX }
     }
 }
 
-/// Why a margin was refused.
+/// Why a margin was rejected.
 ///
 /// ```
 /// use asunder::{Collider2, MarginError, Rect, glam::Vec2};
@@ -80,7 +80,7 @@ impl Default for Layers {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarginError {
-    /// What was given, in metres.
+    /// The rejected margin, in metres.
     pub value: f32,
 }
 
@@ -112,7 +112,7 @@ impl core::error::Error for MarginError {}
 pub enum SetMarginError {
     /// The key's body is gone.
     Stale,
-    /// No body can have that margin.
+    /// The margin is out of range.
     Margin(MarginError),
 }
 
@@ -127,16 +127,17 @@ impl core::fmt::Display for SetMarginError {
 
 impl core::error::Error for SetMarginError {}
 
-/// Returns a margin, in metres, if it is a valid one.
+/// Returns a margin, in metres, if it is valid.
 pub(crate) fn checked_margin(margin: f32) -> Result<f32, MarginError> {
     let is_margin = (0.0..=asunder_geometry::tolerance::MAX_RADIUS).contains(&margin);
     if is_margin { Ok(margin) } else { Err(MarginError { value: margin }) }
 }
 
-/// A body to be: what [`World3::insert`](crate::World3::insert) takes, and what `get` shows.
+/// The description of a body: [`World3::insert`](crate::World3::insert) takes one, and
+/// [`World3::get`](crate::World3::get) returns it.
 ///
-/// Shape and pose differ between [`Collider2`] and [`Collider3`]; all else is common. By default a body may move, is
-/// solid, enabled, in every layer, owned by nobody, without margin, and its `user_data` is 0.
+/// Shape and pose differ between [`Collider2`] and [`Collider3`]; everything else is common. By default a body is
+/// movable, solid, enabled, in every layer, without owner and without margin, and its `user_data` is 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collider<S: Space> {
     pub(crate) shape: S::Shape,
@@ -248,18 +249,18 @@ impl<S: Space> Collider<S> {
         }
     }
 
-    /// Makes the body part of the level: two fixed bodies never pair. It may still be moved by `set_pose`. Ground,
-    /// which is a [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain), is
-    /// fixed without this call.
+    /// Makes the body part of the level: two fixed bodies never pair. `set_pose` may still move it. Ground (a
+    /// [`TriMesh`](crate::TriMesh), a [`HeightField`](crate::HeightField) or a [`Chain`](crate::Chain)) is fixed
+    /// without this call.
     #[must_use]
     pub fn fixed(mut self) -> Self {
         self.fixed = true;
         self
     }
 
-    /// Makes the body a sensor: it only senses, and its contacts have no manifolds. It meets the same bodies as a solid
-    /// one would, and other sensors. A fixed sensor meets nothing fixed, so one that has to notice a fixed lift must
-    /// not be fixed.
+    /// Makes the body a sensor: it only detects, and its contacts have no manifolds. It meets the same bodies as a
+    /// solid one would, and other sensors. A fixed sensor meets no fixed body, so a sensor that has to detect a fixed
+    /// lift must not be fixed.
     #[must_use]
     pub fn sensor(mut self) -> Self {
         self.sensor = true;
@@ -268,16 +269,16 @@ impl<S: Space> Collider<S> {
 
     /// Makes the body a bullet, which must not pass through things.
     ///
-    /// If it is given a motion ([`World3::set_motion`](crate::World3::set_motion)), the update reports what it runs
-    /// into first ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Whatever it
-    /// touches at the start is left out; of ground and compounds, only the parts that it touches.
+    /// If it has a motion ([`World3::set_motion`](crate::World3::set_motion)), the update reports which bodies it runs
+    /// into first ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Bodies that it
+    /// touches at the start are left out; of ground and compounds, only the parts that it touches.
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;
         self
     }
 
-    /// Keeps the body out of the game until it is enabled: it pairs with nobody, and no query finds it.
+    /// Keeps the body out of the game until it is enabled: it pairs with no body, and no query finds it.
     #[must_use]
     pub fn disabled(mut self) -> Self {
         self.disabled = true;
@@ -291,7 +292,7 @@ impl<S: Space> Collider<S> {
         self
     }
 
-    /// Sets an owner: bodies of one owner never pair, such as the parts of one character.
+    /// Sets an owner: bodies of one owner, such as the parts of one character, never pair.
     #[must_use]
     pub fn owner(mut self, owner: u64) -> Self {
         self.owner = Some(owner);
@@ -309,7 +310,7 @@ impl<S: Space> Collider<S> {
     /// Sets the gap, in metres, at which contacts appear: a pair has a contact while its separation is at most the sum
     /// of both margins. It is also the hysteresis between `Began` and `Ended`.
     ///
-    /// (A [`Pair3`](crate::Pair3) takes a margin below zero as zero; a body, which keeps it, refuses it.)
+    /// (A [`Pair3`](crate::Pair3) treats a margin below zero as zero; a body rejects it.)
     ///
     /// # Errors
     /// A margin that is not finite, below zero, or above 1e6.
@@ -318,17 +319,17 @@ impl<S: Space> Collider<S> {
         Ok(self)
     }
 
-    /// Whether it belongs to the level.
+    /// Whether the body is fixed, that is, part of the level.
     pub fn is_fixed(&self) -> bool {
         self.fixed
     }
 
-    /// Whether it only senses.
+    /// Whether the body is a sensor.
     pub fn is_sensor(&self) -> bool {
         self.sensor
     }
 
-    /// Whether updates report what it runs into.
+    /// Whether the body is a bullet, so that updates report what it runs into.
     ///
     /// ```
     /// use asunder::{Collider2, Layers, Rect, glam::Vec2};
@@ -343,12 +344,12 @@ impl<S: Space> Collider<S> {
         self.bullet
     }
 
-    /// Whether it takes part.
+    /// Whether the body is enabled and takes part.
     pub fn is_enabled(&self) -> bool {
         !self.disabled
     }
 
-    /// Whether it sleeps: see [`World3::sleep`](crate::World3::sleep).
+    /// Whether the body sleeps: see [`World3::sleep`](crate::World3::sleep).
     pub fn is_asleep(&self) -> bool {
         self.asleep
     }
@@ -363,7 +364,7 @@ impl<S: Space> Collider<S> {
         self.owner
     }
 
-    /// The number attached.
+    /// The number attached by [`user_data`](Self::user_data).
     pub fn get_user_data(&self) -> u64 {
         self.user_data
     }

@@ -1,10 +1,10 @@
-//! Contacts: what the world keeps of a pair, and what it shows.
+//! Contacts: the data that the world keeps of a pair, and the view that it hands out.
 
 use crate::space::{BodyKey2, BodyKey3};
 use asunder_broad::PairId;
 use asunder_narrow::{Hint, Manifold2, Manifold3};
 
-/// Two bodies within their margins of each other, as of the last update.
+/// Two bodies within the sum of their margins of each other, as of the last update.
 ///
 /// ```
 /// use asunder::{Collider3, Contact3, Cuboid, Pose3, World3, glam::Vec3};
@@ -26,36 +26,36 @@ pub struct Contact<'a, K, M> {
     pub a: K,
     /// The other body.
     pub b: K,
-    /// What the game keeps with `a` and with `b`, as of the last update: see
+    /// The numbers that the game attached to `a` and `b`, as of the last update: see
     /// [`Collider::user_data`](crate::Collider::user_data).
     pub user_data: (u64, u64),
-    /// Whether either is a sensor: then there are no manifolds.
+    /// Whether either body is a sensor: then there are no manifolds.
     pub sensor: bool,
-    /// Whether they share a point now; touching counts.
+    /// Whether the bodies share a point now; touching counts.
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are further apart than their margins, and listed only because their motions may bring them
-    /// together. A solver that lets no point close by more than its separation lets nothing through. Such a pair does
-    /// not count as touching, and has no `Began`, until it overlaps.
+    /// Whether the bodies are further apart than their margins, and listed only because their motions may bring them
+    /// together. Such a pair does not count as touching, and has no `Began`, until it overlaps. A solver that lets no
+    /// point close by more than its separation prevents tunnelling.
     pub speculative: bool,
-    /// One manifold for each pair of convex parts within the margins; on ground, one for each normal of each part.
-    /// Normals point from `a` to `b`.
+    /// The manifolds: one for each pair of convex parts within the margins; on ground, one for each normal of each
+    /// part. Normals point from `a` to `b`.
     ///
-    /// - Where the bodies have motions, there are also manifolds of parts that these may bring together, even if other
-    ///   parts touch. A solver that does not handle speculative points leaves out those whose separation is more than
+    /// - If the bodies have motions, there are also manifolds of parts that these may bring together, even if other
+    ///   parts touch. A solver that does not handle speculative points should skip those whose separation is more than
     ///   the sum of both margins.
-    /// - Each tells how deep its own two parts are; on ground, how deep along its own normal. The least separation of
-    ///   all is at most zero exactly when the bodies overlap.
-    /// - In overlap that least separation is no way out for the whole: a body in a corner, or over a bend of a chain,
-    ///   is free only once it has left every manifold along that one's normal.
-    /// - Empty for a sensor, and for two half-spaces that overlap without end: make all of those fixed, as a level's
-    ///   are, and they never pair.
+    /// - The separation of a manifold is that of its own two parts; on ground, the one along its own normal. The least
+    ///   separation of all manifolds is at most zero exactly when the bodies overlap.
+    /// - For overlapping bodies, moving by that least separation does not free the whole body: a body in a corner, or
+    ///   over a bend of a chain, is free only once it has left every manifold along the manifold's normal.
+    /// - The list is empty for a sensor, and for two half-spaces whose overlap is unbounded: if all half-spaces are
+    ///   fixed, as those of a level are, they never pair.
     pub manifolds: &'a [M],
 }
 
 impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
-    /// The other body of the contact, as this one sees it; `None` if this body is neither of the two.
+    /// The other body of the contact, as seen from `body`; `None` if `body` is neither of the two.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, World2};
@@ -72,7 +72,7 @@ impl<K: Copy + PartialEq, M> Contact<'_, K, M> {
         other_of((self.a, self.b), body)
     }
 
-    /// Which way normals point, as this body sees it: 1 for `a`, from which they point to the other body, -1 for `b`,
+    /// The direction of normals as seen from `body`: 1 for `a`, from which they point to the other body, -1 for `b`,
     /// and 0 for any other body.
     ///
     /// ```
@@ -123,7 +123,7 @@ pub type Contact2<'a> = Contact<'a, BodyKey2, Manifold2>;
 /// A contact in space.
 pub type Contact3<'a> = Contact<'a, BodyKey3, Manifold3>;
 
-/// A pair whose boxes overlapped at the last update, and what is known about it.
+/// A pair whose boxes overlapped at the last update, and the data that is kept about it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate<K> {
     pub(crate) pair: PairId,

@@ -1,4 +1,4 @@
-//! Lines that show what the engine sees: no renderer, only where to draw.
+//! Lines that show what the engine sees: coordinates to draw, not a renderer.
 
 mod plane;
 mod volume;
@@ -16,22 +16,22 @@ use asunder_geometry::tolerance;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DebugOptions {
-    /// The outline of every body that is enabled, where it stands now. On by default.
+    /// The outline of every enabled body at its current pose. On by default.
     pub shapes: bool,
-    /// The boxes of the broad phase, as of the last update; none around half-spaces. In a restored world, until it is
-    /// updated, those around bodies where they stand now. Off by default.
+    /// The boxes of the broad phase, as of the last update; none around half-spaces. In a restored world that has not
+    /// been updated yet, the boxes around bodies at their current poses. Off by default.
     pub boxes: bool,
-    /// The columns that the broad phase last sorted boxes into, those that hold any. Its speed depends on them, and
-    /// which were last depends on what came before; contacts do not. Off by default.
+    /// The non-empty columns into which the broad phase last sorted boxes. They affect its speed but not the contacts,
+    /// and depend on the world's history. Off by default.
     pub columns: bool,
-    /// A cross at each contact point, half-way between both bodies, as of the last update. On by default.
+    /// A cross at each contact point, half-way between the two bodies, as of the last update. On by default.
     pub contacts: bool,
-    /// The normal at each contact point, from there towards the body in the higher slot. On by default.
+    /// The normal at each contact point, drawn from there towards the body in the higher slot. On by default.
     pub normals: bool,
-    /// Length of a normal, in metres, at most 1e6; 0.2 by default. A cross is a quarter of it. A NaN counts as
-    /// 0; a negative length turns the normal around.
+    /// Length of a normal, in metres, at most 1e6; 0.2 by default. The size of a cross is a quarter of it. A NaN counts
+    /// as 0; a negative length reverses the normal.
     pub length: f32,
-    /// Half of the side of the patch that stands for a half-space, in metres, at most 1e6; 20 by default. A NaN counts
+    /// Half the side of the patch that represents a half-space, in metres, at most 1e6; 20 by default. A NaN counts
     /// as 0.
     pub endless: f32,
 }
@@ -63,7 +63,7 @@ impl DebugOptions {
     }
 }
 
-/// What a line is about, to be given a colour.
+/// The kind of a line, by which to choose a colour.
 ///
 /// ```
 /// use asunder::DebugLine;
@@ -75,13 +75,13 @@ impl DebugOptions {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DebugLine {
-    /// The outline of a body that may move.
+    /// The outline of a movable body.
     Body,
     /// The outline of a fixed body.
     Fixed,
     /// The outline of a sensor.
     Sensor,
-    /// The outline of a body that sleeps.
+    /// The outline of a sleeping body.
     Asleep,
     /// A box of the broad phase.
     Box,
@@ -94,7 +94,8 @@ pub enum DebugLine {
 }
 
 impl DebugLine {
-    /// A colour that tells it from the others on dark and on light: red, green, blue and opacity, as sRGB.
+    /// A colour that distinguishes this kind from the others on dark and on light backgrounds: red, green, blue and
+    /// opacity, as sRGB.
     pub const fn colour(self) -> [u8; 4] {
         match self {
             Self::Body => [80, 160, 255, 255],

@@ -1,11 +1,11 @@
-//! What changed between two updates.
+//! Events: contacts that began or ended between two updates.
 
 use crate::contact::other_of;
 use crate::space::{BodyKey2, BodyKey3};
 
 /// A contact that began or ended. Each `Began` is followed, at some later update, by exactly one `Ended`.
 ///
-/// The contact of a `Began` is one call away: `world.contact(a, b)`.
+/// `world.contact(a, b)` returns the contact that belongs to a `Began`.
 ///
 /// ```
 /// use asunder::{Collider3, Event3, Sphere, World3};
@@ -29,25 +29,27 @@ pub enum Event<K> {
         a: K,
         /// The other body.
         b: K,
-        /// What was attached to `a`.
+        /// The number attached to `a`.
         user_data_a: u64,
-        /// What was attached to `b`.
+        /// The number attached to `b`.
         user_data_b: u64,
-        /// Whether either is a sensor.
+        /// Whether either body is a sensor.
         sensor: bool,
     },
-    /// A contact that had begun is gone: the bodies are further apart than their margins, having moved or been given
-    /// other shapes, or may not meet any more, or one was disabled or removed.
+    /// A contact that had begun is over. The possible causes:
+    /// - the bodies are further apart than the sum of their margins, having moved or got other shapes;
+    /// - they may not meet any more;
+    /// - one of them was disabled or removed.
     Ended {
         /// The body in the lower slot. Its key may be stale by now.
         a: K,
         /// The other body. Its key may be stale by now.
         b: K,
-        /// What was attached to `a` when the contact was last there.
+        /// The number attached to `a` when the contact last existed.
         user_data_a: u64,
-        /// What was attached to `b` then.
+        /// The number attached to `b` at that time.
         user_data_b: u64,
-        /// Whether either was a sensor when they last touched.
+        /// Whether either body was a sensor when they last touched.
         sensor: bool,
     },
 }
@@ -81,12 +83,12 @@ impl<K: Copy + PartialEq> Event<K> {
         }
     }
 
-    /// The body that this one met or left; `None` if the event is not about this body.
+    /// The other body of the event, which `body` met or left; `None` if the event is not about `body`.
     pub fn other(&self, body: K) -> Option<K> {
         other_of(self.bodies(), body)
     }
 
-    /// What was attached to the two bodies, in their order.
+    /// The numbers attached to the two bodies, in their order.
     pub fn user_data(&self) -> (u64, u64) {
         match *self {
             Self::Began { user_data_a, user_data_b, .. } | Self::Ended { user_data_a, user_data_b, .. } => {
@@ -95,7 +97,7 @@ impl<K: Copy + PartialEq> Event<K> {
         }
     }
 
-    /// Whether a contact began, rather than ended.
+    /// Whether the event is a `Began`.
     pub fn is_began(&self) -> bool {
         matches!(self, Self::Began { .. })
     }

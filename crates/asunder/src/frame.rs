@@ -41,27 +41,27 @@ use crate::world::World;
 use core::time::Duration;
 
 impl<S: Space> World<S> {
-    /// Brings contacts, candidates and events up to date with the bodies. Cannot fail.
+    /// Brings contacts, candidates and events up to date with the bodies. It cannot fail.
     ///
     /// Cost:
-    /// - Boxes: linear in what moved.
-    /// - Sweep: linear in what moved and in the candidates where few bodies move, else in all bodies and candidates
-    ///   (see [`Sweep`](asunder_broad::Sweep)).
-    /// - Narrow phase: every candidate with a body that moved, except those that were apart by more than they have
-    ///   moved since. While two bodies move against each other by no more than 2^-15 of the smaller bounding radius
-    ///   (2^-10 where they rest on a broad patch, up to 2^-8 on ground), their contact is moved along for a fraction of
-    ///   the cost of a new one.
+    /// - Boxes: linear in the bodies that moved.
+    /// - Sweep: linear in the bodies that moved and in the candidates if few bodies move, else in all bodies and
+    ///   candidates (see [`Sweep`](asunder_broad::Sweep)).
+    /// - Narrow phase: every candidate with a body that moved, except those whose bodies were further apart than they
+    ///   have moved since. While two bodies move against each other by no more than 2^-15 of the smaller bounding
+    ///   radius (2^-10 where they rest on a broad patch, up to 2^-8 on ground), their contact is moved along for a
+    ///   fraction of the cost of a new one.
     pub fn update(&mut self) {
         self.update_with(&Hooks::new());
     }
 
-    /// Like [`update`](Self::update), but asks these hooks who may pair and what to make of a contact.
+    /// Like [`update`](Self::update), but calls these hooks to decide which bodies may pair and to edit contacts.
     ///
-    /// They are called in pair order, by one thread. If equal worlds are to have equal futures, what they answer must
-    /// be a function of what they are given.
+    /// They are called in pair order, by one thread. For equal worlds to have equal futures, their answers must be a
+    /// function of their arguments alone.
     ///
-    /// Cost: a call per candidate for [`Hooks::pair`]; a call per contact, and a copy of its manifolds, for
-    /// [`Hooks::contact`].
+    /// Cost: for [`Hooks::pair`], a call per candidate; for [`Hooks::contact`], a call per contact and a copy of its
+    /// manifolds.
     pub fn update_with(&mut self, hooks: &Hooks<'_, S>) {
         S::advance(self, hooks);
     }

@@ -1,14 +1,14 @@
-//! The guide: one page for each thing that a game does with the engine.
+//! The guide: one page for each task of a game.
 //!
-//! | page | answers |
+//! | page | about |
 //! |---|---|
-//! | [`game_loops`] | what goes into a frame, threads, fast bodies and bullets, debug builds |
-//! | [`events`] | what began and what ended, who meets whom, hooks |
-//! | [`queries`] | ray casts, shape casts, overlap tests, what is nearest, filters |
+//! | [`game_loops`] | the calls of a frame, threads, fast bodies and bullets, debug builds |
+//! | [`events`] | which contacts began and ended, which bodies meet, hooks |
+//! | [`queries`] | ray casts, shape casts, overlap tests, nearest bodies, filters |
 //! | [`characters`] | walking along walls, up steps and down slopes |
 //! | [`levels`] | triangle meshes, height fields and chains; ghost collisions; hulls against meshes |
 //! | [`margins`] | how large a margin should be |
-//! | [`solvers`] | a whole small solver, and what a solver wants from contacts |
+//! | [`solvers`] | a complete small solver, and what a solver needs from contacts |
 //! | [`solvers_3d`] | the same solver for space |
 //! | [`determinism`] | equal bits everywhere, rollback, save games |
 //! | [`units`] | units, ranges, shapes in other sizes |

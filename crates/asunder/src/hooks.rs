@@ -1,8 +1,8 @@
-//! Callbacks of a game during an update: who may pair at all, and edits of contacts.
+//! Callbacks of a game during an update: they decide which bodies may pair, and edit contacts.
 //!
-//! A hook sees what the engine found and decides what becomes of it; it never sees half a frame. Hooks are called in
-//! pair order, and their answers are not remembered in the next update: pairs they left out are found again, and edits
-//! start anew from the narrow phase's result.
+//! A hook is given a result of the engine and may reject or edit it; it never sees a half-finished stage. Hooks are
+//! called in pair order, and their answers are not kept for the next update: pairs that they rejected are found again,
+//! and edits start again from the narrow phase's result.
 
 use crate::collider::Collider;
 use crate::contact::Record;
@@ -12,12 +12,12 @@ use crate::world::World;
 use asunder_broad::PairId;
 use core::fmt::Debug;
 
-/// A body of a pair that a hook is asked about.
+/// One of the two bodies of a pair that a hook is called for.
 #[derive(Clone, Copy, Debug)]
 pub struct Side<'a, S: Space> {
-    /// Its key.
+    /// The key of the body.
     pub key: S::Key,
-    /// What it is.
+    /// The body.
     pub body: &'a Collider<S>,
 }
 
@@ -27,21 +27,21 @@ pub type Side2<'a> = Side<'a, Plane>;
 /// A body of a pair in space.
 pub type Side3<'a> = Side<'a, Volume>;
 
-/// A contact that a hook may edit before anybody sees it.
+/// A contact that a hook may edit before the game reads it.
 #[derive(Debug)]
 pub struct Meeting<'a, S: Space> {
     /// The body in the lower slot; normals point away from it.
     pub a: Side<'a, S>,
     /// The other body.
     pub b: Side<'a, S>,
-    /// Whether they share a point now.
+    /// Whether the bodies share a point now.
     pub overlapping: bool,
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
-    /// Whether they are beyond their margins, and only a motion may bring them together.
+    /// Whether the bodies are beyond their margins, so that only a motion may bring them together.
     pub speculative: bool,
-    /// How they touch: manifolds and points may be changed, removed and added. Whether the two touch stays as it is,
-    /// and so do the events.
+    /// The manifolds of the contact. Manifolds and points may be changed, removed and added; whether the two bodies
+    /// touch is not affected, and neither are the events.
     pub manifolds: &'a mut Vec<S::Manifold>,
 }
 
@@ -100,31 +100,32 @@ impl<'a, S: Space> Hooks<'a, S> {
         Self { pair: None, contact: None }
     }
 
-    /// Sets the hook that decides whether two bodies may meet. It is asked about every pair whose boxes overlap and
+    /// Sets the hook that decides whether two bodies may meet. It is called for every pair whose boxes overlap and
     /// whose layers, owners and so on agree.
     ///
-    /// - A refused pair is not a candidate: a contact that it had ends, and a bullet of it does not run into the other.
-    /// - A refused pair still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are asked.
-    /// - If the hook panics and the game goes on, candidates and contacts stay those of the update before, none of them
-    ///   new; there are no events and no impacts, and motions are kept. The next update reports all that has begun and
-    ///   ended since.
+    /// - A rejected pair is not a candidate: a contact that it had ends, and a bullet among the two does not run into
+    ///   the other.
+    /// - A rejected pair still counts towards [`World::set_max_pairs`], which limits the pairs before hooks are called.
+    /// - If the hook panics and the game continues, candidates and contacts stay those of the update before, none of
+    ///   them new; there are no events and no impacts, and motions are kept. The next update reports everything that
+    ///   has begun and ended since.
     #[must_use]
     pub fn pair(mut self, may_meet: &'a (dyn Fn(Side<'_, S>, Side<'_, S>) -> bool + Sync)) -> Self {
         self.pair = Some(may_meet);
         self
     }
 
-    /// Sets the hook that may edit contacts. It is handed every contact that has manifolds, speculative ones too, after
-    /// the update's events have been written.
+    /// Sets the hook that may edit contacts. It is called for every contact that has manifolds, including speculative
+    /// ones, after the update's events have been written.
     ///
-    /// - Impacts of bullets are not contacts and are not handed over: to let bullets through, refuse the pair in
+    /// - It is not called for impacts of bullets, which are not contacts: to let bullets through, reject the pair in
     ///   [`pair`](Self::pair).
-    /// - A bullet counts as standing only on manifolds that the hook has left: without those of its floor, the next
-    ///   tile may stop it.
+    /// - A bullet counts as resting only on manifolds that the hook has kept: if it removes those of the floor, the
+    ///   next tile may stop the bullet.
     /// - An update that finds more pairs than [`World::set_max_pairs`] allows does not call it: contacts stay as the
-    ///   update before left them, edited.
-    /// - If the hook panics and the game goes on, contacts are as they were found, there are no impacts, and motions
-    ///   are kept for the next update.
+    ///   update before left them, with its edits.
+    /// - If the hook panics and the game continues, contacts are as the narrow phase found them, there are no impacts,
+    ///   and motions are kept for the next update.
     #[must_use]
     pub fn contact(mut self, edit: &'a (dyn Fn(Meeting<'_, S>) + Sync)) -> Self {
         self.contact = Some(edit);

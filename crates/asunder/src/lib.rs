@@ -1,9 +1,9 @@
-//! A collision engine for games: which bodies touch, how deep, and how sure it is.
+//! A collision engine for games: it reports which bodies touch, how deep they overlap, and how accurate each answer is.
 //!
-//! A world holds bodies. Each has a pose and a shape: a convex one, a compound of convex parts, or ground. Move them as
-//! your game pleases and call `update` once a frame: a broad phase sorts and sweeps their boxes, a narrow phase tests
-//! the candidate pairs, and the world says what touches ([`World3::contacts`]) and what changed ([`World3::events`]).
-//! It moves nothing itself.
+//! A world holds bodies. Each body has a pose and a shape: a convex shape, a compound of convex parts, or ground. Move
+//! the bodies as your game requires and call `update` once per frame: a broad phase sorts and sweeps their boxes, a
+//! narrow phase tests the candidate pairs, and the world reports what touches ([`World3::contacts`]) and what changed
+//! ([`World3::events`]). The world never moves a body itself.
 //!
 //! ```
 //! use asunder::{Collider3, Cuboid, Event3, Pose3, World3, glam::Vec3};
@@ -27,54 +27,55 @@
 //! ```
 //!
 //! # Where to begin
-//! - Bodies: [`Collider3`] of any [`Shape3`], at a [`Pose3`]; [`Layers`], owners and sensors say who meets whom.
+//! - Bodies: [`Collider3`] of any [`Shape3`], at a [`Pose3`]; [`Layers`], owners and sensors decide which bodies meet.
 //! - A frame: [`World3::set_pose`], [`World3::update`], [`World3::events`], [`World3::contacts_of`].
-//! - Fast things: [`World3::set_motion`], [`Collider3::bullet`], [`World3::impacts`].
-//! - Queries (ray casts, shape casts, overlap tests, what is nearest): [`World3::cast_ray`], [`World3::cast_shape`],
+//! - Fast bodies: [`World3::set_motion`], [`Collider3::bullet`], [`World3::impacts`].
+//! - Queries (ray casts, shape casts, overlap tests, nearest bodies): [`World3::cast_ray`], [`World3::cast_shape`],
 //!   [`World3::overlapping`], [`World3::closest`], with a [`Filter3`].
 //! - Characters: [`World3::move_and_slide`], with a [`Walk3`].
 //! - Two shapes without a world: [`Pair3`].
-//! - The [`guide`] has pages on most of these, with whole examples.
+//! - The [`guide`] has pages on most of these, with complete examples.
 //!
-//! Everything is there in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
-//! `asunder_geometry` or `asunder_narrow`, the crates that this one is built on: what a game needs of them is
-//! re-exported here under the same name (`asunder::Pose3`). To write a world of your own, see the jobs, batches and
+//! Everything exists in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
+//! `asunder_geometry` or `asunder_narrow`, the crates on which this one is built: the items that a game needs are
+//! re-exported here under the same names (`asunder::Pose3`). To write a world of your own, see the jobs, batches and
 //! hints in `asunder_narrow`.
 //!
 //! # Words
-//! - A **candidate** is a pair whose boxes, margins included, overlap, and that may meet.
-//! - A **contact** is a candidate within the sum of both margins, or one that this frame's motions may bring there
-//!   (then it is *speculative*).
-//! - Two bodies **overlap** while they share a point.
-//! - They are **touching** ([`World3::is_touching`]) from then until they are further apart than their margins: from
-//!   `Began` to `Ended`.
+//! - A **candidate** is a pair of bodies that may meet and whose boxes, margins included, overlap.
+//! - A **contact** is a candidate whose separation is at most the sum of both margins, or whose bodies this frame's
+//!   motions may bring that close (then it is *speculative*).
+//! - Two bodies **overlap** while they share at least one point.
+//! - They are **touching** ([`World3::is_touching`]) from their first overlap until they are further apart than the sum
+//!   of their margins: from `Began` to `Ended`.
 //!
 //! The page on [`events`](guide::events) has this as a table.
 //!
 //! # Debug builds
-//! A debug build of a game leaves its dependencies unoptimised, which makes this one tens of times slower than it has
-//! to be. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. Updates and queries are
-//! compiled with this crate, so this covers them, except the `visit_*` calls, which are compiled with your closure.
+//! A debug build of a game leaves its dependencies unoptimised, which makes this crate tens of times slower than
+//! necessary. Put `[profile.dev.package."*"]` with `opt-level = 3` into the game's Cargo.toml. That covers updates and
+//! queries, which are compiled with this crate, but not the `visit_*` calls, which are compiled with your closure.
 //!
-//! # How sure the answers are
-//! `overlaps`, touching and events are exact, and touching counts: a brick that shares a face with another touches
-//! it, and one a rounding away does not. Every separation carries an `error`, in metres: the truth lies within it.
+//! # How accurate the answers are
+//! `overlaps`, touching and events are exact, and touching counts as overlapping: a brick that shares a face with
+//! another touches it, and one that is a rounding error away does not. Every separation carries an `error`, in metres:
+//! the true separation differs by at most that much.
 //!
-//! Both are about the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius,
-//! turned by the matrix of the stored rotation (in space M(q)/|q|^2, of whatever length q is) and moved by the f64
-//! position, exactly.
+//! Both refer to the **true shape**: the convex hull of the stored f32 vertices, grown by the stored radius, turned by
+//! the matrix of the stored rotation (in space M(q)/|q|^2, whatever the length of q) and moved by the f64 position, all
+//! without rounding.
 //!
-//! The separation is the maximum over unit n of (min over B of n.x - max over A of n.x). Where the shapes are apart, it
-//! is their distance; where they overlap, it is minus the length of the shortest translation that separates them. It is
-//! at most zero exactly when they overlap.
+//! The separation is the maximum over unit n of (min over B of n.x - max over A of n.x). For shapes that are apart it
+//! is their distance; for shapes that overlap it is minus the length of the shortest translation that separates them.
+//! It is at most zero exactly when they overlap.
 //!
 //! # Feature flags
 //! - `parallel` (default): refit, sweep, collide and impacts run on rayon's threads. Every output is bit-equal with and
-//!   without. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many, let
-//!   the game's main thread be one of the pool: see [`game_loops`](guide::game_loops).
+//!   without it. For a few hundred bodies leave it out: threads gain nothing there, and may cost a little. For many
+//!   bodies, make the game's main thread a member of the pool: see [`game_loops`](guide::game_loops).
 //! - `serde`: snapshots of a whole world for save games and the network (`World::snapshot`, `World::restore`), and
 //!   serde's traits for bodies, shapes, poses, rays, keys, events, manifolds, answers to queries, walks and debug
-//!   options. Whatever is loaded passes the same checks as in the constructors.
+//!   options. Everything that is loaded passes the same checks as in the constructors.
 #![deny(missing_docs)]
 
 mod any_world;

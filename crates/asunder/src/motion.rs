@@ -1,4 +1,4 @@
-//! This frame's motions: what a body is about to do, so that an update can say what it will run into.
+//! This frame's motions: how bodies are about to move, so that an update can report what they will run into.
 
 use crate::bodies::note_slot;
 use crate::collider::Collider;
@@ -7,7 +7,7 @@ use crate::world::{StaleKey, World, slot_of};
 use asunder_geometry::tolerance;
 use asunder_narrow::{Impact2, Impact3};
 
-/// What a bullet runs into during its motion: see [`Collider::bullet`](crate::Collider::bullet).
+/// An impact of a bullet during its motion: see [`Collider::bullet`](crate::Collider::bullet).
 ///
 /// ```
 /// use asunder::{Collider3, Hit3, Motion3, Pose3, Sphere, World3, glam::Vec3};
@@ -28,20 +28,20 @@ use asunder_narrow::{Impact2, Impact3};
 pub struct Hit<K, I> {
     /// The bullet: A of the impact.
     pub bullet: K,
-    /// What it meets, which may be a bullet too: B of the impact.
+    /// The body that it meets, which may be a bullet too: B of the impact.
     pub other: K,
-    /// Whether either is a sensor, which stops nobody.
+    /// Whether either is a sensor, which stops no body.
     pub sensor: bool,
-    /// When, where, and how sure. The normal points from the bullet to the other. The point in the world is `anchor_a`
-    /// from the bullet's position at that share of its motion; on another body that has no motion, it is `anchor_b`
-    /// from where that stands.
+    /// The time and place of the impact, with its error. The normal points from the bullet to the other body. The point
+    /// in the world is `anchor_a` from the bullet's position at that fraction of its motion; if the other body has no
+    /// motion, it is also `anchor_b` from that body's position.
     pub impact: I,
 }
 
-/// What a bullet runs into in the plane.
+/// An impact of a bullet in the plane.
 pub type Hit2 = Hit<BodyKey2, Impact2>;
 
-/// What a bullet runs into in space.
+/// An impact of a bullet in space.
 pub type Hit3 = Hit<BodyKey3, Impact3>;
 
 /// The motions for the next update.

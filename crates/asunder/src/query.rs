@@ -1,20 +1,20 @@
-//! Queries to a world: what is here, what is in the way, what is near.
+//! Queries to a world: which bodies overlap a place, which are in the way, which are near.
 //!
 //! ```text
-//! index       which boxes a query is about, nearest first, from two trees and a list
-//! walk        for each box: filter, narrow phase, the box around the body as it stands; the best answer, all, or each
-//! questions   each query as a set of boxes and what it asks of a body
+//! index       the boxes that a query meets, nearest first, from two trees and a list
+//! walk        for each box: filter, narrow phase, the body's current box; the best answer, all, or one by one
+//! questions   each query as a set of boxes and a test of a body
 //! space       the narrow phase's part, in the plane and in space
 //! answer      the answers' types
 //! ```
-//! The methods themselves stand in `ask2.rs` and `ask3.rs`, and those along a way beside them, in plain types.
+//! The methods themselves are in `ask2.rs` and `ask3.rs`, and casts in modules of these, in plain types.
 //!
 //! # Why answers depend on the bodies alone
-//! Trees are made when somebody asks, by any thread, and boxes of the last update may be larger than they need be.
-//! So a box from a tree only says who is looked at. What decides is the box around the shape as it stands, made on
-//! the spot: a body is in an answer only if that box is, and is told to be no nearer than that box. Then a body
-//! that is passed over because its box in the tree is further than what was found would have been told to be
-//! further, too; and the order in which bodies are looked at does not matter, since equal distances go by slot.
+//! Trees are built by the first query, on any thread, and boxes of the last update may be larger than necessary. So a
+//! box from a tree only selects bodies to test. The result depends on the box around the shape at its current pose,
+//! computed on the spot: a body is found only if that box is met, and is reported no nearer than that box. Then a body
+//! that is skipped because its box in the tree is further away than the best answer would have been reported as
+//! further away, too; and the order in which bodies are tested does not matter, since ties are broken by slot.
 
 mod answer;
 mod filter;

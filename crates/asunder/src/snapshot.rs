@@ -27,9 +27,10 @@ use content::Content;
 use serde::{Deserialize, Serialize};
 use shapes::Saved;
 
-/// Everything that a world's future and its present outputs depend on; use it as [`Snapshot2`] or [`Snapshot3`].
+/// The complete state of a world, on which its future and its current outputs depend; use it as [`Snapshot2`] or
+/// [`Snapshot3`].
 ///
-/// It is made for save games and for sending a world to somebody who joins. To roll back some frames, keep clones of
+/// It is made for save games and for sending a world to a player who joins. To roll back some frames, keep clones of
 /// the world: that is many times faster, and a clone has an equal future too.
 ///
 /// ```
@@ -55,8 +56,8 @@ use shapes::Saved;
 /// ```
 ///
 /// # Formats
-/// Any binary format of serde's keeps all numbers. So does RON; serde_json does with its feature `float_roundtrip`,
-/// and without it [`World::restore`] says so with [`SnapshotError::Checksum`].
+/// Any binary format for serde keeps all numbers, and so does RON. serde_json does with its feature `float_roundtrip`;
+/// without it [`World::restore`] returns [`SnapshotError::Checksum`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound = "", deny_unknown_fields)]
 pub struct Snapshot<S: Saved> {
@@ -71,32 +72,33 @@ pub type Snapshot2 = Snapshot<Plane>;
 pub type Snapshot3 = Snapshot<Volume>;
 
 impl<S: Saved> Snapshot<S> {
-    /// A number made of every bit of the snapshot. Worlds that went through equal operations have equal ones, on any
-    /// machine: two peers that compare it every now and then find out when they drift apart. It is no protection
-    /// against forgery.
+    /// A checksum of every bit of the snapshot. Worlds that went through equal operations have equal checksums, on any
+    /// machine: two peers that compare them every now and then detect when they diverge. It is no protection against
+    /// forgery.
     pub fn checksum(&self) -> u64 {
         self.checksum
     }
 }
 
 impl<S: Saved> World<S> {
-    /// Everything that the world's future depends on, as data for serde: see [`Snapshot`]. Shapes that bodies share,
-    /// and equal ones, are in it once.
+    /// Everything on which the world's future depends, as data for serde: see [`Snapshot`]. Shapes that bodies share,
+    /// and equal ones, are stored once.
     ///
     /// Cost: a copy of all bodies and contacts, and a pass over all their numbers.
     pub fn snapshot(&self) -> Snapshot<S> {
         S::save(self)
     }
 
-    /// The world that a snapshot was taken of: equal keys, contacts and events, and an equal future, including the keys
-    /// of new bodies. Bodies that shared a hull, polygon or compound, or had equal ones, share it.
+    /// Restores the world of a snapshot: equal keys, contacts and events, and an equal future, including the keys of
+    /// new bodies. Bodies that shared a hull, polygon or compound, or had equal ones, share it afterwards.
     ///
-    /// Cost: as for a first update, without the narrow phase; hulls are checked.
+    /// Cost: that of a first update without the narrow phase, and a check of every hull.
     ///
     /// # Errors
-    /// Data that no snapshot has. A file that was damaged is refused. A file that was made up, with a checksum that
-    /// fits, is refused or gives a world that works; but that world may take bodies that overlap to be apart, until
-    /// they have gone as far as the file says.
+    /// Data that no snapshot has.
+    /// - A damaged file is rejected.
+    /// - A forged file with a matching checksum is rejected or gives a world that works; but that world may treat
+    ///   overlapping bodies as apart until they have moved as far as the file states.
     pub fn restore(snapshot: &Snapshot<S>) -> Result<Self, SnapshotError> {
         S::restore(snapshot)
     }

@@ -1,4 +1,4 @@
-//! What differs between the plane and space: types, `bounds` and `collide`. All else is written once.
+//! The differences between the plane and space: types, `bounds` and `collide`. Everything else is written once.
 
 use crate::collider::Collider;
 use crate::copy::copy;
@@ -13,9 +13,10 @@ use asunder_narrow::{
 use core::fmt::Debug;
 
 slotmap::new_key_type! {
-    /// A body of a [`World2`](crate::World2). Stays valid until the body is removed, and never means another one.
+    /// The key of a body of a [`World2`](crate::World2). It stays valid until the body is removed, and never refers to
+    /// another one.
     ///
-    /// It is of no use in a [`World3`](crate::World3):
+    /// It cannot be used with a [`World3`](crate::World3):
     ///
     /// ```compile_fail,E0308
     /// use asunder::{BodyKey2, World3};
@@ -25,7 +26,8 @@ slotmap::new_key_type! {
     /// ```
     pub struct BodyKey2;
 
-    /// A body of a [`World3`](crate::World3). Stays valid until the body is removed, and never means another one.
+    /// The key of a body of a [`World3`](crate::World3). It stays valid until the body is removed, and never refers to
+    /// another one.
     ///
     /// ```
     /// use asunder::{BodyKey3, Collider3, Sphere, World3, slotmap::SecondaryMap};
@@ -43,7 +45,7 @@ slotmap::new_key_type! {
     pub struct BodyKey3;
 }
 
-/// What a moving body may run into.
+/// The bodies that a moving body may run into.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum RunsInto<'f, S: Space> {
@@ -59,7 +61,7 @@ mod sealed {
     impl Sealed for super::Volume {}
 }
 
-/// The plane: what makes a [`World`](crate::World) a [`World2`](crate::World2).
+/// The plane: the type parameter that makes a [`World`](crate::World) a [`World2`](crate::World2).
 ///
 /// ```
 /// use asunder::{Plane, Volume, World, World2, World3};
@@ -69,7 +71,7 @@ mod sealed {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane {}
 
-/// Space: what makes a [`World`](crate::World) a [`World3`](crate::World3).
+/// Space: the type parameter that makes a [`World`](crate::World) a [`World3`](crate::World3).
 ///
 /// ```
 /// use asunder::{Collider, Space, Sphere, Volume, World};
@@ -89,17 +91,17 @@ pub enum Plane {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Volume {}
 
-/// A dimension. Sealed: [`Plane`] and [`Volume`] are all there is.
+/// A dimension. Sealed: [`Plane`] and [`Volume`] are its only implementations.
 pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     /// Key of a body.
     type Key: slotmap::Key + Debug + Send + Sync;
-    /// Where a body is.
+    /// The pose of a body.
     type Pose: Copy + Default + PartialEq + Debug + Send + Sync;
-    /// What a body is.
+    /// The shape of a body.
     type Shape: Clone + PartialEq + Debug + Send + Sync;
     /// The box of the broad phase.
     type Aabb: Bounds;
-    /// How two convex parts touch.
+    /// A contact manifold of two convex parts.
     type Manifold: Clone + PartialEq + Debug + Send + Sync;
     /// A manifold that is moved along while its bodies hardly drift.
     #[doc(hidden)]
@@ -107,11 +109,11 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     /// Memory of persistent manifolds that are no longer kept.
     #[doc(hidden)]
     type Spare: Clone + Default + Debug + Send + Sync;
-    /// How a body moves within a frame.
+    /// The motion of a body within a frame.
     type Motion: Copy + PartialEq + Debug + Send + Sync;
-    /// When two bodies first touch.
+    /// The result of a time-of-impact query: when two bodies first touch.
     type Impact: Copy + PartialEq + Debug + Send + Sync;
-    /// What a body touches, other than the second body of a pair.
+    /// A touch of a body with one other than the second body of a pair.
     #[doc(hidden)]
     type Touch: Copy + Debug + Send + Sync;
     /// One pair for the narrow phase.
@@ -119,7 +121,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     type Job<'a>: Send + Sync;
 
     /// Runs one frame. Its definitions are not generic, so it is compiled with this crate and its optimisation:
-    /// otherwise a game that calls [`World::update`] would compile all of it anew, and in a debug build run it
+    /// otherwise a game that calls [`World::update`] would compile all of it again, and in a debug build run it
     /// unoptimised.
     #[doc(hidden)]
     fn advance(world: &mut World<Self>, hooks: &Hooks<'_, Self>);
@@ -165,8 +167,8 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     fn drift(motions: [Option<Self::Motion>; 2]) -> f64;
 
     /// When two bodies first touch in their motions somewhere they do not touch at the start, and the fraction of the
-    /// motions until then. Where either is a sensor and they overlap already, there is no impact with other parts.
-    /// Where both are solid, the first passes over whatever is flush with what it touches.
+    /// motions until then. Where either is a sensor and they overlap already, there is no impact with other parts. If
+    /// both are solid, the first passes over parts that are flush with those that it touches.
     #[doc(hidden)]
     fn impact(
         of: [(&Self::Shape, &Self::Pose); 2],
@@ -216,7 +218,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn reclaim(spare: &mut Self::Spare, kept: &mut Self::Persistent);
 
-    /// Appends a persistent manifold's manifolds, moved along; `None` if they have to be made anew, since bodies
+    /// Appends a persistent manifold's manifolds, moved along; `None` if they have to be recomputed, since bodies
     /// drifted, margins changed, or one has become a sensor.
     #[doc(hidden)]
     fn carry_on(

@@ -1,9 +1,9 @@
-//! What the last update cost and found.
+//! Times and counts of the last update.
 
 use core::time::Duration;
 
-/// Times of each stage, and counts, of the last update. Times are wall clock, zero where the platform has none;
-/// everything else is deterministic.
+/// The time of each stage of the last update, and counts. Times are wall-clock times, zero on platforms without a
+/// clock; everything else is deterministic.
 ///
 /// ```
 /// use asunder::World3;
@@ -20,35 +20,35 @@ pub struct Stats {
     pub refit: Duration,
     /// Stage 2: boxes to candidate pairs.
     pub sweep: Duration,
-    /// Stage 3: candidate pairs to contacts, beside last update's.
+    /// Stage 3: candidate pairs to contacts, matched with the last update's.
     pub collide: Duration,
-    /// Stage 4: what the threads found, put together.
+    /// Stage 4: the results of all threads, merged.
     pub merge: Duration,
     /// Stage 5: events, and the index by body.
     pub report: Duration,
-    /// After stage 5: the contact hook; nothing without one.
+    /// After stage 5: the contact hook; zero without one.
     pub hooks: Duration,
-    /// After that: what bullets run into; nothing without motions.
+    /// After the hook: impacts of bullets; zero without motions.
     pub impacts: Duration,
     /// Bodies in the world.
     pub bodies: usize,
-    /// Bodies whose box was made anew.
+    /// Bodies whose box was recomputed.
     pub moved: usize,
     /// Pairs whose boxes overlap and whose filters agree.
     pub candidates: usize,
-    /// Pairs within their margins.
+    /// Pairs within their margins, and speculative ones.
     pub contacts: usize,
     /// Pairs that share a point.
     pub overlapping: usize,
     /// Manifolds of all contacts.
     pub manifolds: usize,
-    /// Whether there were more candidates than allowed: contacts are then last update's, there are no events and no
-    /// impacts, and this frame's motions are forgotten.
+    /// Whether there were more candidates than [`World::set_max_pairs`](crate::World::set_max_pairs) allows. Contacts
+    /// are then those of the update before, there are no events and no impacts, and this frame's motions are forgotten.
     pub overflow: bool,
 }
 
 impl Stats {
-    /// The time of all stages.
+    /// The total time of all stages.
     pub fn total(&self) -> Duration {
         self.refit + self.sweep + self.collide + self.merge + self.hooks + self.impacts + self.report
     }

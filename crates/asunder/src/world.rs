@@ -1,4 +1,4 @@
-//! The world: bodies, and what is known about them since the last update.
+//! The world: bodies, and the results of the last update.
 
 use crate::collider::{Collider, Tag};
 use crate::contact::{Contact, Record};
@@ -19,8 +19,8 @@ use slotmap::{Key, SlotMap};
 
 /// A key whose body is gone.
 ///
-/// A key means something in its own world only. Another world of the same dimension cannot tell it from one of its own,
-/// and may have a body by that key: keep keys with their worlds.
+/// A key is meaningful only in the world that issued it. Another world of the same dimension cannot distinguish it from
+/// one of its own keys, and may have a body under that key: keep keys with their worlds.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Pose3, StaleKey, World3, glam::Vec3};
@@ -43,17 +43,17 @@ impl core::error::Error for StaleKey {}
 
 /// A world of bodies, in the plane or in space; use it as [`World2`](crate::World2) or [`World3`](crate::World3).
 ///
-/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. It has no serde traits
-/// itself: what is stored is a snapshot.
+/// Equal operations give bit-equal outputs, at any thread count; a clone has an equal future. The world itself has no
+/// serde traits: to store it, take a snapshot.
 ///
 /// # Memory
-/// Not counting the shapes' own data, a world takes at most:
+/// Apart from the shapes' own data, a world takes at most:
 /// - per body, 450 bytes in space and 400 in the plane;
 /// - per candidate pair, 1,600 bytes in space and 1,300 in the plane;
 /// - 1,300 bytes for each manifold beyond the first of a pair, as on ground and with compounds.
 ///
-/// What counts is the greatest number of bodies, pairs and manifolds so far: a world gives nothing back. A clone takes
-/// no more than it needs, apart from empty slots of bodies.
+/// The greatest number of bodies, pairs and manifolds so far counts, since a world never shrinks its memory. A clone
+/// takes only what it needs, apart from empty body slots.
 ///
 /// In a steady scene an update allocates nothing if it is called inside a thread pool (`rayon::ThreadPool::install`) or
 /// if the feature `parallel` is off; from outside, rayon allocates a block for its queue now and then. Overwriting a
@@ -72,7 +72,7 @@ pub struct World<S: Space> {
     /// Slots whose body moved, came or went since candidates were last collided, and the same as a flag a slot.
     pub(crate) moved: Vec<u32>,
     pub(crate) is_moved: Vec<bool>,
-    /// Slots whose body has got another shape since then: what is known from the old one is void.
+    /// Slots whose body has got another shape since then: results for the old one are void.
     pub(crate) reshaped: Vec<u32>,
     /// How far the body in each slot has moved.
     pub(crate) odometers: Vec<Odometer>,
@@ -163,8 +163,8 @@ impl<S: Space> Clone for World<S> {
         copy
     }
 
-    /// Makes this world equal to another, in the memory that it already has. A game that keeps its last frames, and
-    /// goes back to one of them, does so every frame, into a world that is no longer wanted.
+    /// Makes this world equal to another, reusing the memory that it already has. For rollback: a game that keeps its
+    /// last frames overwrites the oldest of its kept worlds in every frame.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};
@@ -191,7 +191,8 @@ impl<S: Space> Default for World<S> {
 }
 
 impl<S: Space> fmt::Debug for World<S> {
-    /// Prints how much there is of everything; bodies and contacts print themselves.
+    /// Prints the number of bodies, candidates, contacts, events and impacts; bodies and contacts have their own
+    /// `Debug`.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};
@@ -255,11 +256,11 @@ impl<S: Space> World<S> {
         self.bodies.is_empty()
     }
 
-    /// Sets how many candidate pairs an update may make, counted before hooks refuse any. See [`Stats::overflow`].
+    /// Sets how many candidate pairs an update may make, counted before hooks reject any. See [`Stats::overflow`].
     ///
-    /// By default 2^24: at about 1,600 bytes each that is 27 GB, so set less to bound memory.
+    /// The default is 2^24: at about 1,600 bytes each that is 27 GB, so set a smaller limit to bound memory.
     ///
-    /// Pairs that layers, owners and so on refuse do not count, but they are found, and cost time: see
+    /// Pairs that layers, owners and so on reject do not count, but they are still found and cost time: see
     /// [`Layers`](crate::Layers).
     ///
     /// ```
@@ -280,7 +281,7 @@ impl<S: Space> World<S> {
         self.max_pairs = max_pairs;
     }
 
-    /// What the last update cost and found.
+    /// Times and counts of the last update.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }

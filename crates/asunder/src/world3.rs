@@ -1,4 +1,4 @@
-//! The world in space: the engine's face, in plain types.
+//! The world in space: the engine's public interface, in plain types.
 
 use crate::collider::{Collider3, Layers, SetMarginError, checked_margin};
 use crate::contact::Contact3;
@@ -11,9 +11,9 @@ use asunder_narrow::{Impact3, Pair3};
 
 /// A world of bodies in space.
 ///
-/// Insert bodies, move them, [`update`](World::update) once a frame, and read what touches. Contacts, candidates and
-/// events are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were removed
-/// since.
+/// Insert bodies, move them, call [`update`](World::update) once per frame, and read what touches. Contacts, candidates
+/// and events are those of the last update; calls about one body, such as `contacts_of`, leave out bodies that were
+/// removed since.
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Pose3, World3, glam::Vec3};
@@ -36,7 +36,7 @@ use asunder_narrow::{Impact3, Pair3};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// Everything about a body may change while it lives:
+/// Every property of a body may be changed while it is in the world:
 ///
 /// ```
 /// use asunder::{Collider3, Cuboid, Layers, Pose3, Sphere, World3, glam::Vec3};
@@ -76,7 +76,7 @@ use asunder_narrow::{Impact3, Pair3};
 pub type World3 = World<Volume>;
 
 impl World<Volume> {
-    /// Adds a body. It takes part from the next update on. Cost: constant.
+    /// Adds a body, which takes part from the next update on. Cost: constant.
     pub fn insert(&mut self, collider: Collider3) -> BodyKey3 {
         self.insert_body(collider)
     }
@@ -86,7 +86,8 @@ impl World<Volume> {
         colliders.into_iter().map(|collider| self.insert(collider)).collect()
     }
 
-    /// Removes a body and returns it; `None` for a stale key. Its contacts that had begun end at the next update.
+    /// Removes a body and returns it; `None` for a stale key. Those of its contacts that had begun end at the next
+    /// update.
     pub fn remove(&mut self, key: BodyKey3) -> Option<Collider3> {
         self.remove_body(key)
     }
@@ -106,7 +107,7 @@ impl World<Volume> {
         self.bodies.iter()
     }
 
-    /// Moves a body. The same pose again, bit for bit, is no move. Cost: constant.
+    /// Moves a body. Setting the same pose again, bit for bit, does not count as a move. Cost: constant.
     ///
     /// # Errors
     /// A stale key.
@@ -116,11 +117,11 @@ impl World<Volume> {
 
     /// Moves many bodies, in this order.
     ///
-    /// Cost: some 5 to 11 ns per body that is in the cache, 50 ns for one that must be fetched. Their boxes, 25 ns
-    /// each, are made by the next update, in parallel.
+    /// Cost: some 5 to 11 ns per body that is in the cache, 50 ns for one that must be fetched. The next update makes
+    /// their boxes, at 25 ns each, in parallel.
     ///
     /// # Errors
-    /// A stale key among them; all the others are moved.
+    /// A stale key among them; all the other bodies are moved.
     pub fn set_poses(&mut self, poses: impl IntoIterator<Item = (BodyKey3, Pose3)>) -> Result<(), StaleKey> {
         let mut outcome = Ok(());
         for (key, pose) in poses {
@@ -129,19 +130,19 @@ impl World<Volume> {
         outcome
     }
 
-    /// Tells the next update how a body will move in this frame.
+    /// Announces to the next update how a body will move in this frame.
     ///
-    /// The update looks ahead that far and then forgets the motion; the pose stays. A body that sleeps is woken.
+    /// The update looks ahead along the motion and then forgets it; the pose stays as it is. A sleeping body is woken.
     ///
-    /// - [`contacts`](Self::contacts) has the contacts that the motion may bring, as speculative ones: all pairs whose
-    ///   separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer their
-    ///   motions can bring them. A pair with a sensor has no speculative contact.
-    /// - For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) too; these do include sensors.
+    /// - [`contacts`](Self::contacts) also lists the contacts that the motion may bring, as speculative ones: all pairs
+    ///   whose separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer
+    ///   their motions can bring them. A pair with a sensor has no speculative contact.
+    /// - For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) as well; these do include sensors.
     /// - A one-sided triangle of ground has neither a speculative contact nor an impact with a part that is clear of it
-    ///   and whose middle is behind its front now, before the motions. So a body that comes up beside the edge of a
-    ///   ledge passes it.
-    /// - Every part of a compound within that reach has a manifold: thousands of parts are better inserted as bodies of
-    ///   their own, with one owner.
+    ///   and whose centre is behind its front before the motions. So a body that rises beside the edge of a ledge
+    ///   passes it.
+    /// - Every part of a compound within that distance has a manifold: insert thousands of parts as separate bodies
+    ///   with one owner instead.
     ///
     /// # Errors
     /// A stale key.
@@ -149,23 +150,28 @@ impl World<Volume> {
         self.set_motion_of(key, motion)
     }
 
-    /// What bullets ran into at the last update, by bullet and then by time: every sensor that is crossed on the way,
-    /// and the first body that is not one.
+    /// The impacts of bullets at the last update, by bullet and then by time: every sensor that a bullet crosses on its
+    /// way, and the first body that is not a sensor.
     ///
     /// - A body that the bullet overlaps at the start is a contact and not listed here. If it has several parts (a
     ///   level in one piece), the parts that the bullet does not touch, such as the walls, still count: see
     ///   [`Pair3::next_impact`](crate::Pair3::next_impact).
-    /// - Whatever is flush with what the bullet touches, like the next tile of a floor, is passed over: see
+    /// - Bodies that are flush with one that the bullet touches, like the next tile of a floor, are passed over: see
     ///   [`next_impact_beside`](crate::Pair3::next_impact_beside).
-    /// - The motions of both bodies count. A ray, which sees bodies where they stand, may report another place.
-    /// - A body removed since is still listed.
+    /// - The motions of both bodies count. A ray cast sees bodies at their current poses, so it may report another
+    ///   place.
+    /// - A body that was removed since is still listed.
     pub fn impacts(&self) -> &[Hit3] {
         &self.impacts
     }
 
-    /// What one bullet ran into at the last update and is still there, by time; nothing for a stale key or for a body
-    /// that is not a bullet. For a bullet that had no motion itself, these are the moving bodies that ran into it.
-    /// Cost: the logarithm of all impacts.
+    /// The impacts of one bullet at the last update, by time.
+    ///
+    /// - Impacts with bodies that were removed since are left out.
+    /// - It is empty for a stale key and for a body that is not a bullet.
+    /// - For a bullet without a motion of its own, these are the moving bodies that ran into it.
+    ///
+    /// Cost: the logarithm of the number of all impacts.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, World3};
@@ -190,8 +196,8 @@ impl World<Volume> {
         self.hits_of(bullet)
     }
 
-    /// When two bodies first touch while both move and turn; `None` if they do not. The answer is conservative, and
-    /// comes with its error. For a body that stands still, pass a motion of zero.
+    /// When two bodies first touch while both move and turn; `None` if they do not. The answer is conservative: it is
+    /// never too late, and carries its error. For a body that stands still, pass a motion of zero.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Motion3, Pose3, StaleKey, World3, glam::DVec3};
@@ -221,10 +227,10 @@ impl World<Volume> {
 
     /// Gives a body another shape.
     ///
-    /// - A contact goes on as long as the bodies are within their margins, as it does when they move. So when a level
-    ///   is changed, the contacts of what lies elsewhere on it do not begin anew.
-    /// - A body that becomes ground becomes fixed, and stays fixed when it gets another shape later:
-    ///   [`set_fixed`](Self::set_fixed) makes it free again.
+    /// - A contact continues as long as the bodies are within their margins, as it does when they move. So when a level
+    ///   is changed, the contacts of bodies elsewhere on it do not begin anew.
+    /// - A body that becomes ground becomes fixed, and stays fixed when it later gets another shape: call
+    ///   [`set_fixed`](Self::set_fixed) to make it movable again.
     ///
     /// # Errors
     /// A stale key.
@@ -242,7 +248,7 @@ impl World<Volume> {
     }
 
     /// Attaches another number to a body. Events and contacts of later updates carry it, but an `Ended` carries the
-    /// number that was attached at the last update at which the contact was there.
+    /// number that was attached at the last update in which the contact existed.
     ///
     /// # Errors
     /// A stale key.
@@ -250,7 +256,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.user_data = user_data)
     }
 
-    /// Where a body is; `None` for a stale key. Cost: constant.
+    /// The pose of a body; `None` for a stale key. Cost: constant.
     ///
     /// ```
     /// use asunder::{Collider3, Pose3, Sphere, World3, glam::DVec3};
@@ -267,8 +273,8 @@ impl World<Volume> {
         self.bodies.get(key).map(|body| &body.pose)
     }
 
-    /// Makes a body a sensor, or solid again. A contact that goes on simply becomes one of the other kind: there is no
-    /// new `Began`, and its `Ended` tells which kind it was last.
+    /// Makes a body a sensor, or solid again. An existing contact continues as one of the other kind: there is no new
+    /// `Began`, and its `Ended` reports which kind it was last.
     ///
     /// # Errors
     /// A stale key.
@@ -290,8 +296,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.sensor = sensor)
     }
 
-    /// Makes a body part of the level, or one that moves. Ground is part of the level, whatever is passed here.
-    /// Contacts between bodies that are both fixed by then end at the next update.
+    /// Makes a body fixed (part of the level) or movable. Ground stays fixed whatever is passed here. Contacts between
+    /// two bodies that are now both fixed end at the next update.
     ///
     /// # Errors
     /// A stale key.
@@ -312,7 +318,8 @@ impl World<Volume> {
         self.change_body(key, |body| body.fixed = fixed || body.shape.is_ground())
     }
 
-    /// Gives a body to an owner, or to nobody. Contacts with other bodies of its owner end at the next update.
+    /// Sets the owner of a body, or removes it with `None`. Contacts with other bodies of its owner end at the next
+    /// update.
     ///
     /// # Errors
     /// A stale key.
@@ -336,7 +343,7 @@ impl World<Volume> {
     /// Gives a body another margin, in metres: see [`Collider::margin`](crate::Collider::margin).
     ///
     /// # Errors
-    /// A stale key, or a margin that no body can have.
+    /// A stale key, or a margin out of range.
     ///
     /// ```
     /// use asunder::{Collider3, Pose3, Sphere, World3};
@@ -355,7 +362,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.margin = margin).map_err(|StaleKey| SetMarginError::Stale)
     }
 
-    /// Sets whether the next updates report what a body runs into in its motions: see
+    /// Sets whether updates from now on report what a body runs into during its motions: see
     /// [`Collider::bullet`](crate::Collider::bullet).
     ///
     /// # Errors
@@ -378,7 +385,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.bullet = bullet)
     }
 
-    /// Lets a body take part again.
+    /// Lets a disabled body take part again.
     ///
     /// # Errors
     /// A stale key.
@@ -386,7 +393,7 @@ impl World<Volume> {
         self.change_body(key, |body| body.disabled = false)
     }
 
-    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with nobody,
+    /// Takes a body out of the game without removing it: its contacts end at the next update, it pairs with no body,
     /// and no query finds it.
     ///
     /// # Errors
@@ -395,11 +402,11 @@ impl World<Volume> {
         self.change_body(key, |body| body.disabled = true)
     }
 
-    /// Notes that a body is at rest. Another pose or a motion wakes it.
+    /// Marks a body as at rest. Another pose or a motion wakes it.
     ///
-    /// This is only a note for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read. The world
-    /// itself does not rely on it: it sees which bodies did not move, and keeps their contacts without computing them
-    /// anew.
+    /// This is only a flag for the game and its solver, which [`Filter3`](crate::Filter3) and hooks can read. The world
+    /// itself does not rely on it: it detects which bodies did not move, and keeps their contacts without recomputing
+    /// them.
     ///
     /// # Errors
     /// A stale key.
@@ -407,7 +414,7 @@ impl World<Volume> {
         self.set_asleep(key, true)
     }
 
-    /// Notes that a body is no longer at rest.
+    /// Marks a body as no longer at rest.
     ///
     /// # Errors
     /// A stale key.
@@ -416,7 +423,7 @@ impl World<Volume> {
     }
 
     /// Replaces the whole body under the same key and returns the old one: for changes that have no call of their own.
-    /// A motion that it was given for this frame is forgotten.
+    /// A motion that was set for this frame is forgotten.
     ///
     /// # Errors
     /// A stale key.
@@ -424,19 +431,20 @@ impl World<Volume> {
         self.replace_body(key, collider)
     }
 
-    /// Pairs whose boxes overlapped and whose filters agreed, in pair order: those that the narrow phase was asked
-    /// about.
+    /// Pairs whose boxes overlapped and whose filters agreed at the last update, in pair order: those that were passed
+    /// to the narrow phase.
     pub fn candidates(&self) -> impl ExactSizeIterator<Item = (BodyKey3, BodyKey3)> + Clone {
         self.candidates.iter().map(|(_, candidate)| candidate.keys)
     }
 
     /// The candidate pairs of one body: those whose boxes overlapped and whose filters agreed.
     ///
-    /// They are in order of the other's slot; empty for a stale key. Pairs with bodies removed since are left out. They
-    /// show whom the body may meet next; [`contacts_of`](Self::contacts_of) has only those within their margins.
+    /// They are in order of the other body's slot; empty for a stale key. Pairs with bodies that were removed since are
+    /// left out. They show which bodies this one may meet next; [`contacts_of`](Self::contacts_of) has only those
+    /// within their margins.
     ///
-    /// Cost: linear in the candidates of lower slots, some 1 ns each, since no frame makes a list for it. For many
-    /// bodies, go through [`candidates`](Self::candidates) once instead.
+    /// Cost: linear in the candidates of lower slots, some 1 ns each, since updates build no index for it. For many
+    /// bodies, iterate over [`candidates`](Self::candidates) once instead.
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Pose3, World3};
@@ -457,19 +465,19 @@ impl World<Volume> {
         self.pairs_of(key)
     }
 
-    /// Pairs within their margins of each other at the last update, in pair order. A body removed since is still
-    /// among them.
+    /// Pairs within their margins of each other at the last update, and speculative ones, in pair order. Pairs with a
+    /// body that was removed since are still listed.
     pub fn contacts(&self) -> impl ExactSizeIterator<Item = Contact3<'_>> + Clone {
         self.show_contacts()
     }
 
-    /// Contacts of one body with bodies that are still there, in order of the other's slot; none for a stale key.
-    /// Cost: a binary search.
+    /// Contacts of one body, in order of the other body's slot; empty for a stale key. Contacts with bodies that were
+    /// removed since are left out. Cost: a binary search.
     pub fn contacts_of(&self, key: BodyKey3) -> impl Iterator<Item = Contact3<'_>> + Clone {
         self.records_of(key).map(|index| self.show(index))
     }
 
-    /// The contact of two bodies, in either order, if they have one. Cost: a binary search.
+    /// The contact of two bodies, given in either order, if they have one. Cost: a binary search.
     pub fn contact(&self, one: BodyKey3, other: BodyKey3) -> Option<Contact3<'_>> {
         self.record_of(one, other).map(|index| self.show(index))
     }
@@ -479,13 +487,14 @@ impl World<Volume> {
         self.has_begun(one, other)
     }
 
-    /// The bodies that touch this one and are still there, sensors among them, in order of their slots. Cost: a binary
-    /// search.
+    /// The bodies that touch this one, sensors included, in order of their slots. Bodies that were removed since are
+    /// left out. Cost: a binary search.
     pub fn touching(&self, key: BodyKey3) -> impl Iterator<Item = BodyKey3> + Clone {
         self.touched_by(key)
     }
 
-    /// What began and what ended at the last update, in pair order; where a slot was reused, what ended comes first.
+    /// The contacts that began and ended at the last update, in pair order; where a slot was reused, `Ended` comes
+    /// first.
     pub fn events(&self) -> &[Event3] {
         &self.events
     }

@@ -8,7 +8,8 @@ mod sealed {
     impl Sealed for super::Aabb3 {}
 }
 
-/// What a broad phase needs of a box, in either dimension. Sealed: only [`Aabb2`] and [`Aabb3`] implement it.
+/// The operations on boxes that a broad phase needs, in either dimension. Sealed: only [`Aabb2`] and [`Aabb3`]
+/// implement it.
 ///
 /// ```
 /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
@@ -26,7 +27,7 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     /// The same boxes as a concrete type, for code that is compiled once for each type, and not again in every caller.
     #[doc(hidden)]
     fn list(boxes: &[Self]) -> BoxList<'_>;
-    /// A box that overlaps nothing, itself included.
+    /// A box that overlaps no box, not even itself.
     const NOTHING: Self;
     /// The least and greatest coordinate on an axis below [`Bounds::AXES`], in metres.
     fn interval(&self, axis: usize) -> (f32, f32);
@@ -39,11 +40,12 @@ pub trait Bounds: Copy + Send + Sync + core::fmt::Debug + PartialEq + sealed::Se
     fn overlaps(&self, other: &Self) -> bool {
         self.is_valid() && other.is_valid() && self.overlaps_valid(other)
     }
-    /// The same for two valid boxes, without branches; meaningless for others.
+    /// Like [`overlaps`](Self::overlaps), but without branches, for two valid boxes; the result for others is
+    /// meaningless.
     fn overlaps_valid(&self, other: &Self) -> bool;
     /// Whether the other box lies within this one. The empty [`Bounds::NOTHING`] lies within every box.
     fn encloses(&self, other: &Self) -> bool;
-    /// The box with all sides moved outwards by so many metres, each rounded once.
+    /// The box with all sides moved outwards by a distance in metres, each rounded once.
     fn widened(&self, metres: f32) -> Self;
 }
 

@@ -256,8 +256,8 @@ impl<'a> Core3<'a> {
     }
 
     /// Half of a segment about the centre, in metres, on which a ball of [`ARM_SHARE`](crate::tolerance::ARM_SHARE) of
-    /// the inner radius stays inside the core; zero if there is none. A plank, say, has room for such balls beside the
-    /// one in its middle.
+    /// the inner radius stays inside the core; zero if there is none. A plank, for example, has room for such balls
+    /// beside the one in its middle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};

@@ -13,7 +13,7 @@ pub enum DirectionError {
     NotFinite {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// Zero in every component.

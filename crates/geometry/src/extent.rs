@@ -16,14 +16,14 @@ pub enum ExtentError {
     NotFinite {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// A half extent is zero or negative.
     NotPositive {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// The bounding radius is below the smallest that the engine is made for.

@@ -51,8 +51,8 @@ pub enum Ground<'a> {
 }
 
 /// Which edges and corners of a triangle may give a contact a normal other than the triangle's: those at which the
-/// ground bends away from the body, or ends. It also says whether some edge has so low a bend that all normals along it
-/// count as the triangle's. Conservative: a bit may be set needlessly.
+/// ground bends away from the body, or ends. It also shows whether some edge has so low a bend that all normals along
+/// it count as the triangle's. Conservative: a bit may be set needlessly.
 ///
 /// ```
 /// use asunder_geometry::Prominent;
@@ -160,7 +160,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The numbers of triangles are below this. Some numbers may have no triangle: holes, and dropped triangles.
+    /// A bound that all triangle numbers are below. Some numbers below it may have no triangle: holes, and dropped
+    /// triangles.
     #[inline]
     pub fn triangle_count(self) -> u32 {
         match self {
@@ -178,7 +179,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// A triangle; `None` where the number has none.
+    /// A triangle by its number; `None` if the number has none.
     #[inline]
     pub fn triangle(self, triangle: u32) -> Option<Triangle3> {
         match self {
@@ -224,9 +225,9 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Hands every triangle whose box overlaps this one, in local axes, to `visitor`, each once, until it breaks off.
+    /// Passes every triangle whose box overlaps `bounds`, in local axes, to `visitor`, each once, until it breaks off.
     /// The order depends only on the ground and the box. Cost: logarithmic in the triangles, and linear in those that
-    /// are handed over.
+    /// are passed.
     #[inline]
     pub fn visit_near(self, bounds: &Aabb3, visitor: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
         match self {
@@ -235,7 +236,7 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Hands every triangle whose box a moving box meets to `visitor`, each once and roughly in the order of meeting,
+    /// Passes every triangle whose box a moving box meets to `visitor`, each once and roughly in the order of meeting,
     /// up to a limit that `visitor` may lower: it returns the new one.
     ///
     /// The moving box has its centre at `from` and half extents `grown`, in metres and local axes; zero for a ray. It

@@ -1,11 +1,11 @@
-//! Boxes, poses and shapes, validated where they are made.
+//! Boxes, poses and shapes, validated when they are created.
 //!
-//! *Where things are is f64; what things are is f32.* A pose holds an f64 position and an f32 rotation, a shape holds
-//! f32 vertices. The **true shape** is the convex hull of the stored vertices, rotated and moved exactly; faces,
-//! normals and radii are derived from it and only ever guide a computation.
+//! *Positions are f64, shapes are f32.* A pose holds an f64 position and an f32 rotation, a shape holds f32 vertices.
+//! The **true shape** is the convex hull of the stored vertices, rotated and moved exactly; faces, normals and radii
+//! are derived from it and only guide computations.
 //!
-//! This crate knows no frames, pairs or worlds. Units are SI, axes right-handed, polygons wind counter-clockwise,
-//! normals point out of a shape.
+//! This crate has no notion of frames, pairs or worlds. Units are SI, axes right-handed, polygons wind
+//! counter-clockwise, normals point out of a shape.
 #![deny(missing_docs)]
 
 mod aabb;

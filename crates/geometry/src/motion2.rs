@@ -59,7 +59,7 @@ impl Motion2 {
         Ok(Self { displacement, to: None })
     }
 
-    /// The motion from one pose to another, such as a solver's step afterwards. It turns the shorter way.
+    /// The motion from one pose to another, for example from before to after a solver's step. It turns the shorter way.
     ///
     /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Between poses with
     /// the same rotation it is a shift.

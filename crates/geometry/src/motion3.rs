@@ -91,7 +91,7 @@ impl Motion3 {
         Ok(Self { displacement, rotation: None })
     }
 
-    /// The motion from one pose to another, such as a solver's step afterwards. It turns the shorter way.
+    /// The motion from one pose to another, for example from before to after a solver's step. It turns the shorter way.
     ///
     /// Its end has the other's rotation, bit for bit, and its position up to two roundings of f64. Between poses with
     /// the same rotation it is a shift.
@@ -269,7 +269,7 @@ impl Turn3 {
         self.axis
     }
 
-    /// The greatest distance at any fraction of the end of a unit arm from where it started: twice the sine of half the
+    /// The greatest distance, over all fractions, of the tip of a unit arm from its start: twice the sine of half the
     /// angle, 2 for half a turn.
     ///
     /// ```

@@ -1,4 +1,4 @@
-//! Where a body is in the plane, and the exact meaning of its rotation.
+//! Poses in the plane, and the exact meaning of their rotations.
 
 use crate::pose3::{PoseError, check_position, check_rotation};
 use crate::tolerance::UNIT_ROTATION;
@@ -48,7 +48,7 @@ impl Rotation2 {
         Self { cos: self.cos, sin: 0.0 - self.sin }
     }
 
-    /// The rotation whose [`cos`](Self::cos) and [`sin`](Self::sin) were these, bit for bit: for games that store or
+    /// The rotation with exactly this [`cos`](Self::cos) and [`sin`](Self::sin), bit for bit: for games that store or
     /// send rotations in a format of their own. [`Rotation2::new`] would normalise them again, and change one in two
     /// hundred.
     ///
@@ -61,7 +61,7 @@ impl Rotation2 {
     /// ```
     ///
     /// # Errors
-    /// Numbers that are not finite, or whose length is not 1 up to rounding, as that of every rotation.
+    /// Numbers that are not finite, or that are not of unit length up to rounding.
     pub fn restored(cos: f32, sin: f32) -> Result<Self, PoseError> {
         check_rotation(&[cos, sin])?;
         let (c, s) = (f64::from(cos), f64::from(sin));
@@ -119,7 +119,7 @@ impl Default for Rotation2 {
     }
 }
 
-/// Where a body is in the plane: an f64 position in metres and an f32 rotation.
+/// The pose of a body in the plane: an f64 position in metres and an f32 rotation.
 ///
 /// ```
 /// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
@@ -236,7 +236,7 @@ impl Pose2 {
         DAffine2::from_cols(self.rotation.turn(DVec2::X), self.rotation.turn(DVec2::Y), self.position)
     }
 
-    /// Transforms a local direction to world axes: where the body faces, say.
+    /// Transforms a local direction to world axes, for example the direction in which the body faces.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
@@ -256,7 +256,7 @@ impl Pose2 {
         DVec2::new(c * direction.x + s * direction.y, c * direction.y - s * direction.x) / (c * c + s * s)
     }
 
-    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to tell whether a body has moved.
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to detect whether a body has moved.
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         self.position.x.to_bits() == other.position.x.to_bits()

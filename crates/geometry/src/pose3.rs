@@ -1,4 +1,4 @@
-//! Where a body is in space, and the exact meaning of its rotation.
+//! Poses in space, and the exact meaning of their rotations.
 
 use crate::basis3::Basis3;
 use crate::tolerance::MAX_POSITION;
@@ -18,26 +18,26 @@ pub enum PoseError {
     PositionNotFinite {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given.
+        /// The given value.
         value: f64,
     },
     /// A coordinate of the position is beyond [`MAX_POSITION`].
     PositionTooFar {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given, in metres.
+        /// The given value, in metres.
         value: f64,
     },
     /// A component of the rotation is NaN or infinite.
     RotationNotFinite {
         /// Which component: x, y, z, w of a quaternion; cosine, sine in the plane.
         component: usize,
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// The rotation is zero in every component, and so has no direction.
     ZeroRotation,
-    /// A cosine and a sine that no rotation in the plane has, as their squares do not add up to one: see
+    /// A cosine and a sine whose squares do not add up to one, so that they belong to no rotation in the plane: see
     /// [`Rotation2::restored`](crate::Rotation2::restored).
     NotUnit {
         /// The cosine.
@@ -104,7 +104,7 @@ pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
     Ok(())
 }
 
-/// Where a body is in space: an f64 position in metres and an f32 rotation.
+/// The pose of a body in space: an f64 position in metres and an f32 rotation.
 ///
 /// The quaternion is kept bit for bit and never renormalised: it *means* the matrix M(q)/|q|^2, which is an exact
 /// rotation for every q but zero. A quaternion that has drifted over ten thousand products is therefore as good
@@ -289,7 +289,7 @@ impl Pose3 {
         DAffine3::from_cols(x, y, z, self.position)
     }
 
-    /// Transforms a local direction to world axes: where the body faces, say.
+    /// Transforms a local direction to world axes, for example the direction in which the body faces.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
@@ -308,7 +308,7 @@ impl Pose3 {
         self.basis().turn_back(direction)
     }
 
-    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to tell whether a body has moved.
+    /// Whether every stored bit is equal: `0.0` and `-0.0` differ. A world uses it to detect whether a body has moved.
     #[inline]
     pub fn same_bits(&self, other: &Self) -> bool {
         let (here, there) = (self.position, other.position);

@@ -15,17 +15,17 @@ use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 pub enum RadiusError {
     /// NaN or infinite.
     NotFinite {
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// Below zero.
     Negative {
-        /// What was given, in metres.
+        /// The given value, in metres.
         value: f32,
     },
     /// The radius of a round shape is below [`MIN_RADIUS`].
     TooSmall {
-        /// What was given, in metres.
+        /// The given value, in metres.
         value: f32,
     },
     /// The shape would reach further from its origin than [`MAX_RADIUS`].

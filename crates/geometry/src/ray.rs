@@ -33,8 +33,9 @@ impl Ray2 {
     }
 
     /// A ray from one point towards another, both in metres (`Vec2`, `DVec2`, or an array of f64): a line of sight. Its
-    /// direction is the whole way, so that a distance along it is a fraction of the way, and a query for what is
-    /// between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the way.
+    /// direction is the vector from one point to the other, so that a distance along it is a fraction of that vector,
+    /// and a query for bodies in between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the
+    /// vector's length.
     ///
     /// ```
     /// use asunder_geometry::{Ray2, RayError, glam::DVec2};
@@ -105,8 +106,9 @@ impl Ray3 {
     }
 
     /// A ray from one point towards another, both in metres (`Vec3`, `DVec3`, or an array of f64): a line of sight. Its
-    /// direction is the whole way, so that a distance along it is a fraction of the way, and a query for what is
-    /// between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the way.
+    /// direction is the vector from one point to the other, so that a distance along it is a fraction of that vector,
+    /// and a query for bodies in between has the limit 1. The direction is f32: the end is off by up to 1e-7 of the
+    /// vector's length.
     ///
     /// ```
     /// use asunder_geometry::{Ray3, RayError, glam::DVec3};

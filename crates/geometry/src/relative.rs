@@ -1,4 +1,4 @@
-//! Poses relative to others, for things that are held, carried or mounted.
+//! Poses relative to others, for bodies that are held, carried or mounted.
 
 use crate::basis3::turn_between;
 use crate::pose2::{Pose2, Rotation2};
@@ -6,7 +6,7 @@ use crate::pose3::{Pose3, PoseError};
 use glam::Quat;
 
 impl Pose3 {
-    /// The world pose of something whose pose in the axes of `self` is `local`: a lantern in a hand, a wheel on a cart.
+    /// The world pose of a body whose pose in the axes of `self` is `local`: a lantern in a hand, a wheel on a cart.
     ///
     /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; it is exact if one
     /// of both is the identity. The quaternion may have any length. [`Pose3::relative_to`] is the inverse.
@@ -66,7 +66,7 @@ fn rounded(quaternion: [f64; 4]) -> Quat {
 }
 
 impl Pose2 {
-    /// The world pose of something whose pose in the axes of `self` is `local`: a turret on a tank.
+    /// The world pose of a body whose pose in the axes of `self` is `local`: a turret on a tank.
     ///
     /// The rotation is off by at most 2^-23 rad, so that a point d metres away is off by d 2^-23 m; it is exact if one
     /// of both is the identity. [`Pose2::relative_to`] is the inverse.

@@ -315,7 +315,7 @@ impl Capsule3 {
 pub enum CapsuleError {
     /// A half height below zero.
     HalfHeight {
-        /// What was given, in metres.
+        /// The given value, in metres.
         value: f32,
     },
     /// Its segment is invalid.

@@ -1,7 +1,7 @@
 //! `Debug` output of shapes with many numbers.
 //!
-//! Prints what they were made from if that is a few lines, and only how much it is where there may be millions; never
-//! the derived tables. Ground of any size takes one line in a log.
+//! Prints the data from which shapes were made if that is a few lines, and only its amount where there may be millions;
+//! never the derived tables. Ground of any size takes one line in a log.
 
 use crate::{Chain, Compound2, Compound3, HeightField, Hull, Polygon, TriMesh};
 use core::fmt::{Debug, Formatter, Result};

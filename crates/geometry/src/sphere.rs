@@ -26,7 +26,7 @@ pub struct Sphere {
 }
 
 impl Sphere {
-    /// A sphere of radius zero, for queries about points. Do not give it to a body: snapshots refuse spheres without a
+    /// A sphere of radius zero, for queries about points. Do not use it for a body: snapshots reject spheres without a
     /// radius. Use a hull of one point instead ([`Hull::of_any_dimension`](crate::Hull::of_any_dimension)).
     ///
     /// ```

@@ -1,12 +1,12 @@
 //! Every tolerance and limit of the engine, in one place.
 //!
-//! A tolerance is always relative: it is multiplied by the size of what it is applied to, so that a scene of pebbles
-//! and a scene of mountains get the same treatment. Only the *limits* at the end carry a unit.
+//! A tolerance is always relative: it is multiplied by the size of the shapes that it is applied to, so that a scene of
+//! pebbles and a scene of mountains get the same treatment. Only the *limits* at the end carry a unit.
 
 /// Gap, as a share of a pair's size, at which a cast in the plane reports two shapes as touching.
 ///
 /// A cast advances by separating axes until the gap is this small, and takes the last step along the axis that it has
-/// then; what is left is in the impact's error, and is mostly rounding. A pair that passes by within this gap counts as
+/// then; the rest is in the impact's error, and is mostly rounding. A pair that passes by within this gap counts as
 /// touching. A larger value turns wider misses into hits; with a smaller one the axis across the last gap, and so the
 /// normal, is rounding (1e-16 of the size over the gap).
 pub const CAST_GAP2: f64 = 1e-8;
@@ -91,7 +91,7 @@ pub const IMPACT_GAP: f64 = 1e-6;
 /// impact's stated error, and far below an f32 rounding of the size.
 pub const IMPACT_REST: f64 = 1e-9;
 
-/// Share of a body's thickness within which the next thing that it meets counts as level with what it touches.
+/// Share of a body's thickness within which the next part that it meets counts as level with a part that it touches.
 ///
 /// It is how much deeper a body may end in ground that it passes over, and how far in front of the body that ground may
 /// begin: see `next_impact` of a pair. A larger value lets bodies run deeper into ramps; a smaller one stops a rolling
@@ -167,20 +167,20 @@ pub const BEHIND_END: f64 = 0.2;
 /// smaller one would reject rotations that were made here.
 pub const UNIT_ROTATION: f64 = 1.000_001 * (f32::EPSILON as f64);
 
-/// Default of the gap that a character keeps between itself and everything, as a share of its bounding radius.
+/// Default of the gap that a character keeps to all solids, as a share of its bounding radius.
 ///
 /// It must be far above the rounding of positions and the error of casts, so that a character that slides along a
 /// floor never meets the inner edges of its tiles; a larger one becomes visible as hovering.
 pub const SKIN: f32 = 0.01;
 
-/// The least gap that a character keeps between itself and everything, as a share of its bounding radius, and by how
-/// much it is pushed clear of solids.
+/// The least gap that a character keeps to all solids, as a share of its bounding radius, and by how much it is pushed
+/// clear of them.
 ///
-/// A smaller one comes near the error of casts (1e-6 of a pair's size), so that a character could touch what it slides
-/// along.
+/// A smaller one comes near the error of casts (1e-6 of a pair's size), so that a character could touch the surface
+/// along which it slides.
 pub const LEAST_SKIN: f64 = 1.0 / 4096.0;
 
-/// Share of its skin by which a character may be too near to something before it is moved away.
+/// Share of its skin by which a character may be too near to a solid before it is moved away.
 ///
 /// Without slack every frame would move it to undo the rounding of the last. With a larger one the gap changes visibly
 /// while it slides.
@@ -192,8 +192,8 @@ pub const SKIN_SLACK: f64 = 1.0 / 64.0;
 /// Above the rounding of f32 normals (6e-8) and displacements; a larger one lets characters creep into corners.
 pub const STANDSTILL: f64 = 1e-6;
 
-/// Sine of the angle below which a cast counts as grazing what it meets: the normal is then tilted by as much against
-/// the motion, so that sliding along it leads away.
+/// Sine of the angle below which a cast counts as grazing the surface that it meets: the normal is then tilted by as
+/// much against the motion, so that sliding along it leads away.
 ///
 /// A normal perpendicular to the motion would change nothing, and the next cast would meet the same again. A larger
 /// value bends the path visibly.
@@ -245,7 +245,7 @@ pub const MAX_RADIUS: f32 = 1e6;
 /// The furthest a position may lie from the origin on any axis, in metres.
 pub const MAX_POSITION: f64 = 1e9;
 
-/// The most vertices a hull may have. Hulls are meant for collision; simplify what is drawn.
+/// The most vertices a hull may have. Hulls are meant for collision; simplify meshes that are made for drawing.
 pub const MAX_HULL_VERTICES: usize = 256;
 
 /// The most points that a hull may be built from.

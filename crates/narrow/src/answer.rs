@@ -48,7 +48,7 @@ pub enum Tier {
     /// - All others: a search for a separating axis, or for support points that enclose a common point.
     Bound,
     /// Only for the pairs that `Bound` tests by their axes (cuboids, polygons of few edges): the axes did not settle
-    /// it, and the search did that all other shapes begin with.
+    /// it, but the search with which all other shapes begin did.
     Double,
     /// Exact arithmetic.
     Exact,
@@ -99,7 +99,7 @@ pub enum Separation2 {
 }
 
 impl Separation2 {
-    /// What was measured; nothing beyond the caller's limit.
+    /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Pose2, Shape2};
@@ -145,7 +145,7 @@ pub enum Separation3 {
 }
 
 impl Separation3 {
-    /// What was measured; nothing beyond the caller's limit.
+    /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
     /// use asunder_geometry::{Sphere, Pose3, Shape3};
@@ -343,13 +343,14 @@ pub struct ContactPoint3 {
     pub feature: FeatureId,
 }
 
-/// How two convex shapes in the plane touch: one normal, and one or two points, in order of their feature ids.
+/// The contact manifold of two convex shapes in the plane: one normal, and one or two points, in order of their feature
+/// ids.
 ///
 /// On a chain, the part is the first segment of the straight [run](asunder_geometry::Run) that is touched; of several
 /// runs that share the normal, the lowest. A run counts as one straight segment, and `error` includes how far its
 /// vertices may lie off that.
 ///
-/// Where a pair has several manifolds, each has the depth along its own normal. The least of their separations says
+/// If a pair has several manifolds, each has the depth along its own normal. The least of their separations shows
 /// whether the shapes overlap, but not how far they have to move to be free of each other.
 ///
 /// ```
@@ -381,7 +382,8 @@ pub struct Manifold2 {
     pub points: ContactPoints<ContactPoint2, 2>,
 }
 
-/// How two convex shapes in space touch: one normal, and one to four points, in order of their feature ids.
+/// The contact manifold of two convex shapes in space: one normal, and one to four points, in order of their feature
+/// ids.
 ///
 /// On ground, the part is the lowest triangle of the plane that is touched, or of those planes that share the normal.
 ///
@@ -408,11 +410,11 @@ pub struct Manifold3 {
     /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
     /// the smaller bounding radius, with three exceptions:
     ///
-    /// - Where there are four points (chosen, perhaps, from more), and on ground made of triangles, all points may lie
-    ///   higher than that by up to 2^-15 of the smaller bounding diameter: the price of a choice that is steady from
+    /// - If there are four points (possibly chosen from more), and on ground made of triangles, all points may lie
+    ///   higher than that by up to 2^-15 of the smaller bounding diameter: the price of a choice that is stable from
     ///   frame to frame.
-    /// - Where ground bends in steps too small for normals of their own, what stands up between the points counts here
-    ///   but in no point: up to 2^-11 of the smaller bounding radius.
+    /// - Where ground bends in steps too small for normals of their own, ground that stands up between the points
+    ///   counts here but in no point: up to 2^-11 of the smaller bounding radius.
     /// - The depth of a needle-thin triangle along a direction that is rejected (outside the Voronoi region of the
     ///   feature that it comes from) counts here but in no point either.
     pub separation: f32,
@@ -420,13 +422,12 @@ pub struct Manifold3 {
     pub error: f32,
     /// Where they touch. Never empty.
     ///
-    /// Of more than four corners, four are chosen: one is as deep as any, within 2^-15 of the smaller bounding
-    /// diameter, and their area is at least 95 % of the largest that any four have, if those include such a corner too.
-    /// The choice is the same from frame to frame for as long as the corners keep their features, unless two corners
-    /// have each other's.
+    /// Of more than four corners, four are chosen: one counts as deepest, within 2^-15 of the smaller bounding
+    /// diameter, and their area is at least 95 % of the largest of any four that include such a corner. The choice is
+    /// the same from frame to frame for as long as the corners keep their features, unless two corners swap theirs.
     ///
-    /// A point between two faces is named after a vertex (else an edge) of each face that lies within 2^-9 of the
-    /// smaller bounding diameter of it; where none does, after what it lies on.
+    /// A point between two faces gets its id from a vertex (else an edge) of each face within 2^-9 of the smaller
+    /// bounding diameter of it; if there is none, from the feature on which it lies.
     pub points: ContactPoints<ContactPoint3, 4>,
 }
 

@@ -4,7 +4,7 @@ use crate::answer::{Answer, Manifold2, Manifold3};
 use crate::feature::Hint;
 use crate::precision::round_down;
 
-/// Answers to a batch of jobs, and the manifolds they refer to. Keep one between frames: it is scratch memory.
+/// Answers to a batch of jobs, and the manifolds to which they refer. Keep it between frames to reuse its memory.
 #[derive(Debug, PartialEq)]
 pub struct Batch<M> {
     /// One answer per job, in order.

@@ -16,7 +16,7 @@
 //!
 //! For shapes that turn as well, conservative advancement (Mirtich, "Impulse-based dynamic simulation of rigid body
 //! systems", 1996) bounds the speed of every point by its arm and the angular speed. It converges slowly where a rod
-//! spins fast and closes slowly. What is done instead:
+//! spins fast and closes slowly. Instead:
 //! 1. Along one axis, each vertex' projection has a second derivative of at most M (arm times angular acceleration and
 //!    squared speed). So between two times D apart the gap is at least the lesser of the gaps at both, less M D^2 / 8:
 //!    two projections certify a whole stretch. The longest such stretch is found by regula falsi, at two supports a
@@ -66,29 +66,28 @@ pub use ray::cast_ray2;
 use stretch::{Stretch, Travel};
 
 impl Pair2<'_> {
-    /// Where A first touches B when it moves by a displacement in metres, in world axes, and B stands still; `None` if
-    /// it does not.
+    /// The first touch of A, moved by a displacement in metres, with B, which stands still; `None` if there is none.
     ///
-    /// - Touching at the start, exactly, is an impact at fraction 0, even where A moves away. Its anchors are the
-    ///   deepest contact point's; for two half-planes that overlap without end both are zero, the bodies' positions.
+    /// - Touching at the start, exactly, is an impact at fraction 0, even if A moves away. Its anchors are those of the
+    ///   deepest contact point; for two half-planes whose overlap is unbounded both are zero, the bodies' positions.
     /// - Shapes that are apart by less than positions round to (some 1e-14 of the size near the origin; further out
     ///   some 8 units of f64's spacing there, and 32 where both move: 7e-7 m at 1e8 m) are an impact at 0 too, unless A
-    ///   moves away; `overlapping` says no, and `error` how far apart they may be. So a shape that a cast has brought
-    ///   up to another may leave it; except, now and then, where the other is some thousand times as large.
-    /// - A miss is certain. A pair that passes within 1e-8 of its size may be called an impact, whose `error` says by
-    ///   how much they may miss.
+    ///   moves away; `overlapping` is then false, and `error` bounds how far apart they are. So a shape that a cast has
+    ///   brought up to another may leave it, with rare exceptions if the other is some thousand times as large.
+    /// - A miss is certain. A pair that passes within 1e-8 of its size may be reported as an impact, whose `error`
+    ///   bounds how far apart they pass.
     /// - A compound is met at the pair of parts that touches first; of equals, the first.
-    /// - A one-sided chain is met from its front alone. What is behind a straight [run](asunder_geometry::Run) of it
-    ///   when it comes to touch that run passes through all of it, even where its middle comes through on the way;
-    ///   contacts begin then. A shape that turns may come to touch the run again, from its front, once the two have
-    ///   been apart for a 32nd of the motion; after a shorter time apart, that touch may be missed.
+    /// - A one-sided chain is met only from its front. A shape that is behind a straight [run](asunder_geometry::Run)
+    ///   of the chain when it first touches that run passes through all of it, even if its centre crosses it on the
+    ///   way; contacts begin then. A shape that turns may come to touch the run again, from its front, once the two
+    ///   have been apart for a 32nd of the motion; after a shorter time apart, that touch may be missed.
     /// - At inner vertices of straight lines and hollows, the normal is that of the run they are on. The part of a
     ///   chain is the first segment of the straight run that is met.
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     ///
-    /// Cost: a few dozen ns where circles swept along the way miss; else the exact question whether they overlap, and
-    /// one distance per round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
+    /// Cost: a few dozen ns if bounding circles swept along the way miss; else an exact overlap test, and one distance
+    /// per round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
     /// [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
     ///
     /// ```
@@ -108,14 +107,14 @@ impl Pair2<'_> {
         self.first_touch(&Travel::shift([&self.pose_a, &self.pose_b], displacement.as_dvec2()))
     }
 
-    /// When the bodies first touch if both move, and perhaps turn; `None` if they do not. All that [`cast`](Self::cast)
-    /// says holds here too.
+    /// The first touch of two bodies that both move and may turn; `None` if there is none. The rules of
+    /// [`cast`](Self::cast) hold here too.
     ///
-    /// - The answer is about the poses that [`Motion2::pose_at`] gives: at no fraction before the impact's do they
-    ///   touch, and there they are at most `error` apart. Where a body turns, and is not a ball about its position,
-    ///   that is no less than 1.2e-7 of its arm.
-    /// - Where many rounds get no nearer, as for shapes that graze each other while they turn, the fraction is that of
-    ///   the last round, and `error` the gap that is left there.
+    /// - The answer refers to the poses that [`Motion2::pose_at`] returns: at no fraction before the impact's do they
+    ///   touch, and there they are at most `error` apart. If a body turns, and is not a circle about its position,
+    ///   `error` is no less than 1.2e-7 of its arm.
+    /// - If many rounds bring the shapes no nearer, as when they graze each other while they turn, the fraction is that
+    ///   of the last round, and `error` the gap that is left there.
     /// - Two half-planes of which one turns touch at once.
     ///
     /// Cost: as a cast where nothing turns; else 5 to 20 us, most of it distances, and two supports for every time
@@ -137,21 +136,22 @@ impl Pair2<'_> {
         self.first_touch(&Travel::of(self, [motion_a, motion_b]))
     }
 
-    /// What bodies that may already touch run into next: like [`impact`](Self::impact), but what they touch at the
-    /// start is passed over.
+    /// The next impact of bodies that may already touch: like [`impact`](Self::impact), but parts that they touch at
+    /// the start are passed over.
     ///
-    /// Parts of chains and of compounds that touch at the start are left out, and so is what is level with them. So a
-    /// ball that its weight presses on a level's floor crosses the floor's vertices and still runs into the level's
-    /// walls, steps and ramps.
+    /// Parts of chains and of compounds that touch at the start are left out, and so are parts that are level with
+    /// them. So a ball that its weight presses on a level's floor crosses the floor's vertices and still runs into the
+    /// level's walls, steps and ramps.
     ///
-    /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
-    ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
-    ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
+    /// - A part is level if, along the normal of the impact with it, it is at most a 64th of the body's thickness away
+    ///   at the start and the motion leads at most that far into it, not counting the depth to which the motion leads
+    ///   into the touched parts anyway. The thickness is the radius of a ball inside the body, about its centre.
     /// - If a body turns, the two may overlap along that normal at the start, deeper than the contacts account for,
     ///   since another axis separates them. Then the motion into the part counts from where they meet.
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.
-    /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
+    /// - A motion that sinks a body into its floor by its whole thickness leads it under the obstacles that stand
+    ///   there.
     /// - Where ground is touched at two places, and only one of them has a contact, going into the other is an impact
     ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors may be off
     ///   by up to half the thickness.
@@ -177,14 +177,14 @@ impl Pair2<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: what is flush with those is
-    /// passed over as well, such as the next of the tiles that a floor is made of. Parts of ground that A touches too
-    /// are not: ground has no such seams.
+    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: parts that are flush with those
+    /// are passed over as well, such as the next of the tiles of a floor. Parts of ground that A touches too are not
+    /// passed over: ground has no such seams.
     ///
-    /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
-    /// - This is judged by where the two stand at the start, and what B does after that counts as sinking: a body that
-    ///   was flush and swings or rises into A, by less than that half, is no impact, but a contact once it is there.
+    /// - Flush means: rising above the touched body by no more than a 64th of the thickness of the thinner part, while
+    ///   A never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// - This is judged by the poses of the two at the start, and later motion of B counts as sinking: a body that was
+    ///   flush and swings or rises into A, by less than that half, has no impact, but a contact once it is there.
     /// - Half-planes are never flush.
     /// - A touch whose axis is not of length 1 is ignored.
     ///
@@ -348,7 +348,7 @@ fn sum(v: DVec2) -> f64 {
     v.abs().element_sum()
 }
 
-/// What a moving body's own position rounds to.
+/// The rounding error of a moving body's own position.
 fn position_of(pose: &Pose2) -> f64 {
     sum(pose.position())
 }

@@ -51,29 +51,30 @@ use passage::{Course, Passage, Stretch, rounding_of};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
-    /// When A, moved by this displacement in metres, first touches B, which stands still; `None` if it never does.
+    /// The first touch of A, moved by a displacement in metres, with B, which stands still; `None` if there is none.
     ///
-    /// - Before the fraction that is reported they certainly do not touch; there they are at most `error` apart: at
-    ///   most 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, with what rounding adds,
-    ///   except where the displacement is so long or the bodies so far from the origin that f64 has no nearer place.
-    /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact; shapes that
+    /// - Before the reported fraction the shapes certainly do not touch. At the fraction they are at most `error`
+    ///   apart: at most 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, plus rounding;
+    ///   more only where the displacement is so long or the bodies so far from the origin that f64 cannot represent a
+    ///   nearer place.
+    /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact. Shapes that
     ///   move apart are not, however near they are, so that a shape which a cast has brought up to another may leave
-    ///   it: except, now and then, what leaves an edge or a corner that is less than 1e-12 of the larger size away, or
-    ///   anything some ten thousand times as large as itself.
+    ///   it. Rare exceptions: shapes that leave an edge or a corner less than 1e-12 of the larger size away, or a shape
+    ///   some ten thousand times as large as themselves.
     /// - Shapes that touch at the start, exactly, are reported as such, even when they move apart: compare the normal
-    ///   with the displacement. Two half-spaces that overlap without end then have no depth: the normal is A's own, and
-    ///   both anchors are the bodies' positions.
-    /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
+    ///   with the displacement. Two half-spaces whose overlap is unbounded then have no depth: the normal is that of A,
+    ///   and both anchors are the bodies' positions.
+    /// - A displacement that is not finite counts as zero: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     /// - A compound is met at the parts that touch first.
     ///
     /// Ground is met at its first triangle on the way; `part_b` (or `part_a`) is its number.
     ///
-    /// - One-sided ground stops what is in front of a triangle at the start, judged by the centre of the part, however
-    ///   fast it is, and nothing else. What overlaps no triangle whose front it is on does not touch at the start.
-    /// - What comes up through one-sided ground, and moves away from the front of the neighbouring triangle, passes the
-    ///   edge between the two.
-    /// - The normal is the triangle's own, except where an edge or vertex stands out of the ground around it.
+    /// - One-sided ground stops exactly the parts whose centre is in front of a triangle at the start, however fast
+    ///   they are. A part touches at the start only if it overlaps a triangle in front of which it is.
+    /// - A part that rises through one-sided ground, and moves away from the front of the neighbouring triangle, passes
+    ///   the edge between the two.
+    /// - The normal is the triangle's, except where an edge or vertex stands out of the ground around it.
     ///
     /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others. On ground:
     /// that for each triangle whose box the moved part's box meets and whose plane it reaches; for ground that turns,
@@ -107,15 +108,15 @@ impl Pair3<'_> {
         self.first_touch(&Passage::straight(self, drift))
     }
 
-    /// When two bodies that both move, and may turn, first touch; `None` if they never do.
+    /// The first touch of two bodies that both move and may turn; `None` if there is none.
     ///
-    /// As [`cast`](Self::cast), along the path that [`Motion3`] describes, taken exactly: before the fraction that is
-    /// reported the shapes do not touch on that path.
+    /// Like [`cast`](Self::cast), but along the path that [`Motion3`] describes, taken exactly: before the reported
+    /// fraction the shapes do not touch on that path.
     ///
     /// - [`Motion3::pose_at`] rounds rotations to f32 and positions to f64. Poses from it may overlap by that rounding
     ///   just before the fraction, and at the fraction are at most `error` apart with it.
-    /// - Where many steps get no nearer, as for shapes that graze each other while they turn, the fraction is that of
-    ///   the last step, and `error` the gap that is left there.
+    /// - If many steps bring the shapes no nearer, as when they graze each other while they turn, the fraction is that
+    ///   of the last step, and `error` the gap that is left there.
     ///
     /// Cost: a few distances; several times those of a [`cast`](Self::cast) while turning; for compounds, that for
     /// every pair of parts whose bounding spheres meet on the way.
@@ -140,27 +141,28 @@ impl Pair3<'_> {
         self.first_touch(&Passage::of_motions(self, [motion_a, motion_b]))
     }
 
-    /// What bodies that may already touch run into next: like [`impact`](Self::impact), but what they touch at the
-    /// start is passed over.
+    /// The next impact of bodies that may already touch: like [`impact`](Self::impact), but parts that they touch at
+    /// the start are passed over.
     ///
-    /// Parts of ground and of compounds that touch at the start are left out, and so is what is level with them. So a
-    /// ball that its weight presses on a level's floor crosses the floor's seams and still runs into the level's walls,
-    /// steps and ramps.
+    /// Parts of ground and of compounds that touch at the start are left out, and so are parts that are level with
+    /// them. So a ball that its weight presses on a level's floor crosses the floor's seams and still runs into the
+    /// level's walls, steps and ramps.
     ///
-    /// - A part is level if, along the normal that it would be met with, it is at most a 64th of the body's thickness
-    ///   away at the start and the motion leads at most that far into it, not counting what the motion leads into the
-    ///   touched parts anyway. The thickness is the radius of a ball in the body's middle.
+    /// - A part is level if, along the normal of the impact with it, it is at most a 64th of the body's thickness away
+    ///   at the start and the motion leads at most that far into it, not counting the depth to which the motion leads
+    ///   into the touched parts anyway. The thickness is the radius of a ball inside the body, about its centre.
     /// - If a body turns, the two may overlap along that normal at the start, deeper than the contacts account for,
     ///   since another axis separates them. Then the motion into the part counts from where they meet.
     /// - A part of a compound is level, too, if it is flush with a touched one, as long as the body never sinks deeper
     ///   below that than half its thickness.
-    /// - A motion that sinks a body into its floor by its whole thickness leads it under what stands there.
+    /// - A motion that sinks a body into its floor by its whole thickness leads it under the obstacles that stand
+    ///   there.
     /// - Where ground is touched at two places, and only one of them has a contact, going into the other is an impact
     ///   at the start: a ball in a hollow has a contact with one side, and rolls into the other. Its anchors may be off
     ///   by up to half the thickness.
     /// - `None` for bodies of one part each that touch. Never `overlapping`.
     ///
-    /// Cost: as the impact, which is tested first; for bodies that touch, their manifolds too, and another search.
+    /// Cost: that of the impact, which is tested first; for bodies that touch, also their manifolds and another search.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
@@ -182,14 +184,14 @@ impl Pair3<'_> {
         self.next_impact_beside(&[], motion_a, motion_b)
     }
 
-    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: what is flush with those is
-    /// passed over as well, such as the next of the tiles that a floor is made of. Parts of ground that A touches too
-    /// are not: ground has no such seams.
+    /// [`next_impact`](Self::next_impact) of a body A that also touches other bodies: parts that are flush with those
+    /// are passed over as well, such as the next of the tiles of a floor. Parts of ground that A touches too are not
+    /// passed over: ground has no such seams.
     ///
-    /// - Flush means: rising above what is touched by no more than a 64th of the thickness of the thinner part, while A
-    ///   never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
-    /// - This is judged by where the two stand at the start, and what B does after that counts as sinking: a body that
-    ///   was flush and swings or rises into A, by less than that half, is no impact, but a contact once it is there.
+    /// - Flush means: rising above the touched body by no more than a 64th of the thickness of the thinner part, while
+    ///   A never sinks below it by more than half that thickness. A body that is stuck deeper is stopped as usual.
+    /// - This is judged by the poses of the two at the start, and later motion of B counts as sinking: a body that was
+    ///   flush and swings or rises into A, by less than that half, has no impact, but a contact once it is there.
     /// - Half-spaces are never flush.
     /// - A touch whose axis is not of length 1 is ignored.
     ///

@@ -1,4 +1,4 @@
-//! Names for vertices, edges and faces that stay the same from frame to frame.
+//! Ids of vertices, edges and faces that stay the same from frame to frame.
 
 use asunder_geometry::glam::{DVec3, Vec3};
 
@@ -123,13 +123,14 @@ impl From<FeatureId> for u64 {
     }
 }
 
-/// What the last frame learnt about a pair: opaque, cheap to keep, and safe to lose.
+/// The last frame's knowledge about a pair: opaque, cheap to keep, and safe to lose.
 ///
-/// It names the axis to try first, by its features or as the direction that separated the shapes; and the face that
-/// contact points were made on, if that is another. A stale hint, even one made for other shapes, costs a projection or
-/// two. It can never change whether shapes overlap, nor break an error bound: an axis is trusted only after both shapes
-/// were projected on it. Among features that are equally good up to rounding, contact points are made where the hint
-/// says they were, so that they do not flicker under a solver.
+/// It holds the axis to try first, by its features or as the direction that separated the shapes; and the face on which
+/// contact points were made, if that is another.
+/// - A stale hint, even one made for other shapes, costs a projection or two. It can never change whether shapes
+///   overlap, nor break an error bound: an axis is trusted only after both shapes were projected on it.
+/// - Among features that are equally good up to rounding, contact points are made on those of the hint, so that they do
+///   not flicker under a solver.
 ///
 /// ```
 /// use asunder_narrow::Hint;

@@ -17,19 +17,19 @@ use asunder_geometry::glam::Vec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact2 {
-    /// The share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
+    /// The fraction of the motion at the impact, from 0 to 1. Before it the shapes do not touch.
     pub fraction: f64,
-    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It includes
-    /// what the rounding of a pose at that fraction may add.
+    /// Bound on the distance of the shapes at `fraction`, in metres; 0 if they touch at the start. It includes the
+    /// rounding of a pose at that fraction.
     pub error: f32,
-    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal is that of the least
-    /// depth.
+    /// Whether they already touch at the start, exactly. Then the fraction is 0, and the normal is the direction of
+    /// least depth.
     pub overlapping: bool,
     /// Unit normal in world axes, from A to B, at the impact.
     pub normal: Vec2,
-    /// Where they meet on A, in world axes, relative to A's position at the impact.
+    /// The point of contact on A, in world axes, relative to A's position at the impact.
     pub anchor_a: Vec2,
-    /// Where they meet on B, in world axes, relative to B's position at the impact.
+    /// The point of contact on B, in world axes, relative to B's position at the impact.
     pub anchor_b: Vec2,
     /// Which part of A, for shapes made of several; of a chain, the first segment of the straight run; else 0.
     pub part_a: u32,
@@ -50,12 +50,13 @@ pub struct Impact2 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit2 {
-    /// How far along the ray, in lengths of its direction: what `Ray2::at` takes.
+    /// The distance along the ray, in lengths of its direction, as `Ray2::at` takes it.
     pub distance: f64,
-    /// Metres along the ray that the distance may be off by. A ray that misses by less than rounding may be called
-    /// a hit, and one that goes in by less than it a miss.
+    /// Bound on the error of the distance, in metres along the ray. A ray that misses by less than rounding may be
+    /// reported as a hit, and one that enters by less than rounding as a miss.
     pub error: f32,
-    /// Outward unit normal of the shape there, in world axes; against the ray where it starts inside.
+    /// Outward unit normal of the shape at that point, in world axes; opposite to the ray's direction if it starts
+    /// inside.
     pub normal: Vec2,
     /// Whether the ray starts in the shape, exactly; touching counts. Then the distance is 0.
     pub inside: bool,

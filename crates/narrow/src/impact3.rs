@@ -2,7 +2,7 @@
 
 use asunder_geometry::glam::Vec3;
 
-/// When one moved shape in space first touches another, and where.
+/// When and where a moved shape in space first touches another.
 ///
 /// ```
 /// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
@@ -18,19 +18,19 @@ use asunder_geometry::glam::Vec3;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact3 {
-    /// The share of the motion that is done, from 0 to 1. Before it the shapes do not touch.
+    /// The fraction of the motion at the impact, from 0 to 1. Before it the shapes do not touch.
     pub fraction: f64,
-    /// At `fraction` the shapes are at most this far apart, in metres; 0 where they touch at the start. It includes
-    /// what the rounding of a pose at that fraction may add.
+    /// Bound on the distance of the shapes at `fraction`, in metres; 0 if they touch at the start. It includes the
+    /// rounding of a pose at that fraction.
     pub error: f32,
-    /// Whether they touch at the start already, exactly. Then the fraction is 0, and the normal is that of the least
-    /// depth.
+    /// Whether they already touch at the start, exactly. Then the fraction is 0, and the normal is the direction of
+    /// least depth.
     pub overlapping: bool,
     /// Unit axis in world axes, from A to B, at the impact.
     pub normal: Vec3,
-    /// Where they meet on A, in world axes, relative to A's position at the impact.
+    /// The point of contact on A, in world axes, relative to A's position at the impact.
     pub anchor_a: Vec3,
-    /// Where they meet on B, in world axes, relative to B's position at the impact.
+    /// The point of contact on B, in world axes, relative to B's position at the impact.
     pub anchor_b: Vec3,
     /// Which part of A, for shapes made of several, and for ground; else 0.
     pub part_a: u32,
@@ -52,11 +52,12 @@ pub struct Impact3 {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit3 {
-    /// How far along the ray, in lengths of its direction: what [`Ray3::at`](asunder_geometry::Ray3::at) takes.
+    /// The distance along the ray, in lengths of its direction, as [`Ray3::at`](asunder_geometry::Ray3::at) takes it.
     pub distance: f64,
-    /// Metres along the ray that the distance may be off by; 0 where the ray starts inside.
+    /// Bound on the error of the distance, in metres along the ray; 0 if the ray starts inside.
     pub error: f32,
-    /// Outward unit normal of the shape there, in world axes; against the ray's direction where it starts inside.
+    /// Outward unit normal of the shape at that point, in world axes; opposite to the ray's direction if it starts
+    /// inside.
     pub normal: Vec3,
     /// Whether the ray starts in the shape, exactly; touching counts. Then the distance is 0.
     pub inside: bool,

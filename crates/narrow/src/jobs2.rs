@@ -5,7 +5,7 @@ use crate::feature::Hint;
 use crate::pair2::Pair2;
 use asunder_geometry::{Pose2, Shape2};
 
-/// One question of a batch: are these within the margin of each other, and how do they touch?
+/// One pair of a batch: whether the shapes are within the margin of each other, and how they touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Job2<'a> {
     /// Shape of A.
@@ -18,7 +18,7 @@ pub struct Job2<'a> {
     pub pose_b: &'a Pose2,
     /// Metres of gap within which a contact is wanted.
     pub margin: f32,
-    /// What the last answer for this pair left, or [`Hint::NONE`].
+    /// The hint of the last answer for this pair, or [`Hint::NONE`].
     pub hint: Hint,
     /// Whether to leave out manifolds.
     pub sensor: bool,

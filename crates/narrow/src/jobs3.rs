@@ -19,7 +19,7 @@ use crate::polyhedron::cuboids::queries::Contact;
 use crate::room::in_place;
 use asunder_geometry::{Pose3, Shape3};
 
-/// One question of a batch: are these within the margin of each other, and how do they touch?
+/// One pair of a batch: whether the shapes are within the margin of each other, and how they touch.
 #[derive(Clone, Copy, Debug)]
 pub struct Job3<'a> {
     /// Shape of A.
@@ -32,7 +32,7 @@ pub struct Job3<'a> {
     pub pose_b: &'a Pose3,
     /// Metres of gap within which a contact is wanted.
     pub margin: f32,
-    /// What the last answer for this pair left, or [`Hint::NONE`].
+    /// The hint of the last answer for this pair, or [`Hint::NONE`].
     pub hint: Hint,
     /// Whether to leave out manifolds.
     pub sensor: bool,

@@ -1,13 +1,13 @@
-//! Two posed convex shapes in, one answer out.
+//! The narrow phase: overlap, separation, contacts and casts of two posed shapes.
 //!
 //! Two convex sets are disjoint exactly when some axis separates their projections. For polygons the edge normals
-//! suffice as candidates, for polyhedra the face normals and the cross products of edge pairs. A narrow phase knows
-//! no keys and no world; it is asked about one pair ([`Pair2`], [`Pair3`]) or about a batch of jobs ([`collide2`],
+//! suffice as candidates, for polyhedra the face normals and the cross products of edge pairs. A narrow phase has no
+//! notion of keys or worlds; it processes one pair ([`Pair2`], [`Pair3`]) or a batch of jobs ([`collide2`],
 //! [`collide3`]).
 //!
-//! # What the answers mean
-//! The **true shape** is the convex hull of the stored f32 vertices v, with everything within the stored f32 radius
-//! of it, turned and moved exactly. Faces are derived data and prove nothing.
+//! # Meaning of the answers
+//! The **true shape** is the convex hull of the stored f32 vertices v, with everything within the stored f32 radius of
+//! it, turned and moved exactly. Faces are derived data on which no proof relies.
 //!
 //! ```text
 //! in space        x = M(q)/|q|^2 v + p         for the stored quaternion q, of any length, and the f64 position p
@@ -21,19 +21,18 @@
 //! parts: the translation that separates that pair may leave others overlapping. Shapes are closed: touching counts as
 //! overlapping.
 //!
-//! - `overlaps` is exact. [`Tier`] says which level of precision it took.
+//! - `overlaps` is exact. [`Tier`] reports which level of precision it took.
 //! - Every separation, distance and manifold has an `error`: |true - reported| <= error, in metres.
-//! - `separation <= 0` exactly when `overlaps`; `distance` has points exactly when not. Where the rounded number
-//!   disagrees with the exact answer it becomes zero, or the least positive f32.
+//! - `separation <= 0` exactly when `overlaps`; `distance` returns points exactly when not. If the rounded number
+//!   disagrees with the exact answer, it becomes zero, or the least positive f32.
 //! - A pair is within a margin when it overlaps or its reported separation is at most the margin.
 //! - All tolerances are relative: a scene scaled by a power of two has the same answers, scaled. Positions are
 //!   subtracted in f64 first, so that nothing is lost with the distance from the origin.
 //!
 //! `docs/accuracy.md` derives the bounds.
 //!
-//! To ask about the same pairs frame after frame, hand back the [`Hint`] that each answer left. For bodies that hardly
-//! move, a [`Persistent2`] or [`Persistent3`] moves last frame's manifold along, for a fraction of what a new one
-//! costs.
+//! To process the same pairs frame after frame, pass back the [`Hint`] of each answer. For bodies that hardly move, a
+//! [`Persistent2`] or [`Persistent3`] moves the last frame's manifold along, for a fraction of the cost of a new one.
 //!
 //! ```
 //! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

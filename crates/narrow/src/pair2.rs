@@ -21,21 +21,21 @@ use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::{Pose2, Shape2};
 use part::{Part, for_parts, for_parts_in, for_parts_near};
 
-/// Two posed shapes in the plane, ready to be asked about each other.
+/// Two posed shapes in the plane, prepared for queries about each other.
 ///
-/// Positions are subtracted in f64 before anything is rotated, so that nothing degrades far from the origin.
+/// Positions are subtracted in f64 before anything is rotated, so that accuracy does not degrade far from the origin.
 ///
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
 /// | half-plane, anything | its line's normal alone: one dot product a vertex | lowest vertex | lowest vertex and its neighbour |
-/// | half-plane, half-plane | lines that face exactly away from each other; else they overlap without end | half way | one, or none |
+/// | half-plane, half-plane | lines that face exactly away from each other; else their overlap is unbounded | half way | one, or none |
 /// | circle, circle | the line through both centres | the same | one |
 /// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | chain, anything | the least of its segments' | the same | a manifold for each normal of what is touched |
 ///
-/// Radii (of circles, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
-/// subtracted. A segment has two edges, back to back.
+/// Radii (of circles, capsules, and shapes that are `rounded`) come last: the kernels work on the cores, and both radii
+/// are subtracted. A segment has two edges, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
@@ -100,7 +100,7 @@ impl<'a> Pair2<'a> {
     /// Whether the shapes share a point, exactly; touching counts.
     ///
     /// Settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which.
+    /// [`verdict`](Self::verdict) reports which.
     ///
     /// Cost:
     /// - Constant where circles around or inside the shapes decide, and for rectangles.
@@ -111,9 +111,9 @@ impl<'a> Pair2<'a> {
         self.verdict().overlapping
     }
 
-    /// Whether the shapes share a point, as contacts and characters see it: like [`overlaps`](Self::overlaps), but a
-    /// run of a one-sided chain counts only if the centre of a part is in front of it. Two chains see each other from
-    /// all sides. Exact, and no more than a yes or no.
+    /// Whether the shapes share a point, by the rules of contacts and characters: like [`overlaps`](Self::overlaps),
+    /// but a run of a one-sided chain counts only if the centre of a part is in front of it. Two chains overlap each
+    /// other from all sides. Exact.
     ///
     /// ```
     /// use asunder_geometry::{Chain, Circle, Pose2, Shape2, glam::Vec2};
@@ -135,7 +135,7 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
+    /// Like [`overlaps`](Self::overlaps), with the tier of precision that settled it.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -162,9 +162,9 @@ impl<'a> Pair2<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// The overlap as the first tier alone sees it, right or wrong: by the sign of its numbers.
+    /// The overlap as decided by the first tier alone, right or wrong: by the sign of its numbers.
     ///
-    /// It is for comparison: the difference to [`overlaps`](Self::overlaps) is the cost of certainty.
+    /// It is meant for measurements: the difference in time to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
     /// use asunder_geometry::{Circle, Pose2, Shape2};
@@ -184,8 +184,8 @@ impl<'a> Pair2<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// - Beyond the limit it may stop at any axis that shows as much, with [`Separation2::AtLeast`]. A NaN counts as no
-    ///   limit, and a negative limit as zero.
+    /// - Beyond the limit it may stop at any axis along which the shapes are that far apart, with
+    ///   [`Separation2::AtLeast`]. A NaN counts as no limit, and a negative limit as zero.
     /// - Two half-planes have separation -inf unless they face exactly away from each other.
     ///
     /// Cost:
@@ -213,11 +213,12 @@ impl<'a> Pair2<'a> {
         }
     }
 
-    /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
+    /// The contact manifold, if the shapes are at most `margin` metres apart; a margin below zero, or NaN, counts as
+    /// zero.
     ///
     /// A point may be up to the margin outside. For compounds this is the manifold of the deepest pair of parts;
-    /// [`Pair2::manifolds`] has them all. `None` for two half-planes that overlap without end. Cost: as the separation,
-    /// plus clipping two edges.
+    /// [`Pair2::manifolds`] has them all. `None` for two half-planes whose overlap is unbounded. Cost: that of the
+    /// separation, plus clipping two edges.
     pub fn manifold(&self, margin: f32) -> Option<Manifold2> {
         if self.has_ground() {
             return self.deepest_on_ground(margin).1;

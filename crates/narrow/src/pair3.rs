@@ -30,14 +30,14 @@ use part::for_parts_near;
 pub(crate) use part::{Part, for_parts, for_parts_along};
 pub(crate) use parts::Parts;
 
-/// Two posed shapes in space, ready to be asked about each other.
+/// Two posed shapes in space, prepared for queries about each other.
 ///
-/// Positions are subtracted in f64 before anything is rotated, so that nothing degrades far from the origin.
+/// Positions are subtracted in f64 before anything is rotated, so that accuracy does not degrade far from the origin.
 ///
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
 /// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that faces the plane |
-/// | half-space, half-space | planes that face exactly away from each other; else they overlap without end | half way | one, or none |
+/// | half-space, half-space | planes that face exactly away from each other; else their overlap is unbounded | half way | one, or none |
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
 /// | sphere, cuboid | the centre clamped to the cuboid; inside, its nearest face | the same | one |
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
@@ -46,8 +46,8 @@ pub(crate) use parts::Parts;
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
 /// | mesh or height field, anything | the least of its triangles' near the other | the same | a manifold for each normal of a part |
 ///
-/// Radii (of spheres, capsules, and whatever is `rounded`) come last: the kernels work on the cores, and both radii are
-/// subtracted. Triangles and flat hulls have two faces, back to back.
+/// Radii (of spheres, capsules, and shapes that are `rounded`) come last: the kernels work on the cores, and both radii
+/// are subtracted. Triangles and flat hulls have two faces, back to back.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
@@ -92,8 +92,8 @@ impl<'a> Pair3<'a> {
 
     /// Whether the shapes share a point, exactly; touching counts. One-sided ground counts from both sides here.
     ///
-    /// Settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
-    /// [`verdict`](Self::verdict) says which.
+    /// It is settled by error bounds of f64 where they suffice, else by certificates in f64, else by exact arithmetic:
+    /// [`verdict`](Self::verdict) reports which.
     ///
     /// Cost:
     /// - Cuboids: fifteen axes.
@@ -105,9 +105,9 @@ impl<'a> Pair3<'a> {
         self.verdict().overlapping
     }
 
-    /// Whether the shapes share a point, as contacts and characters see it: like [`overlaps`](Self::overlaps), but a
-    /// triangle of one-sided ground counts only if the centre of a part is in front of it. Two grounds see each other
-    /// from all sides. Exact, and no more than a yes or no.
+    /// Whether the shapes share a point, by the rules of contacts and characters: like [`overlaps`](Self::overlaps),
+    /// but a triangle of one-sided ground counts only if the centre of a part is in front of it. Two grounds overlap
+    /// each other from all sides. Exact.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, Shape3, Sphere, TriMesh, glam::Vec3};
@@ -132,7 +132,7 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// [`overlaps`](Self::overlaps), and the tier of precision that settled it.
+    /// Like [`overlaps`](Self::overlaps), with the tier of precision that settled it.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{Quat, Vec3}};
@@ -172,10 +172,10 @@ impl<'a> Pair3<'a> {
         Verdict { overlapping, tier }
     }
 
-    /// The overlap as the first tier alone sees it, right or wrong: by the sign of its numbers. Always by the general
-    /// kernels, also for cuboids, whose own kernels have overtaken those.
+    /// The overlap as decided by the first tier alone, right or wrong: by the sign of its numbers. Always by the
+    /// general kernels, also for cuboids, whose own kernels have overtaken those.
     ///
-    /// It is for comparison: the difference to [`overlaps`](Self::overlaps) is the cost of certainty.
+    /// It is meant for measurements: the difference in time to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
     /// use asunder_geometry::{Pose3, Shape3, Sphere};
@@ -195,19 +195,19 @@ impl<'a> Pair3<'a> {
 
     /// The separation, exact up to its error where it is at most `limit` metres, which may be infinite.
     ///
-    /// - Beyond the limit it may stop at any axis that shows as much, with [`Separation3::AtLeast`]. A NaN counts as no
-    ///   limit, and a negative limit as zero.
+    /// - Beyond the limit it may stop at any axis along which the shapes are that far apart, with
+    ///   [`Separation3::AtLeast`]. A NaN counts as no limit, and a negative limit as zero.
     /// - Two half-spaces have separation -inf unless they face exactly away from each other.
     /// - For ground it is the least of all triangles' separations. In overlap it is the depth in the deepest single
-    ///   triangle, from whichever side is nearer: to push a body out, use [`manifolds`](Self::manifolds), which know
-    ///   the ground around it.
+    ///   triangle, from whichever side is nearer: to push a body out, use [`manifolds`](Self::manifolds), which take
+    ///   the surrounding ground into account.
     ///
     /// Cost:
     /// - Cuboids: fifteen axes.
     /// - Two hulls: linear in faces, edges and vertices, plus the pairs of those that culling leaves.
     /// - In a gap: a few support searches, for the Euclidean distance.
-    /// - Ground, nearest first through the index: logarithmic in its triangles where the shapes are apart, linear for a
-    ///   half-space; two grounds: the same for each triangle of one that is near the other.
+    /// - Ground, nearest triangles first, through the tree: logarithmic in its triangles for shapes that are apart,
+    ///   linear for a half-space; two grounds: the same for each triangle of one that is near the other.
     pub fn separation(&self, limit: f32) -> Separation3 {
         let limit = limit_of(limit);
         if let Some(found) = self.cuboids().and_then(|cuboids| cuboids.separation(limit)) {
@@ -230,8 +230,8 @@ impl<'a> Pair3<'a> {
         }
     }
 
-    /// The closest points of shapes that do not overlap; `None` where they do. Cost: some support searches, each
-    /// linear in the vertices.
+    /// The closest points of shapes that do not overlap; `None` if they do. Cost: some support searches, each linear in
+    /// the vertices.
     pub fn distance(&self) -> Option<Closest3> {
         if let Some(found) = self.distance_in_closed_form() {
             return found;
@@ -257,11 +257,12 @@ impl<'a> Pair3<'a> {
         Some(Closest3 { error, ..found? })
     }
 
-    /// How the shapes touch, if they are at most `margin` metres apart; a margin below zero, or NaN, counts as zero.
+    /// The contact manifold, if the shapes are at most `margin` metres apart; a margin below zero, or NaN, counts as
+    /// zero.
     ///
     /// A point may be up to the margin outside. For compounds this is the manifold of the deepest pair of parts;
-    /// [`Pair3::manifolds`] has them all. `None` for two half-spaces that overlap without end. Cost: as the separation,
-    /// plus clipping two faces.
+    /// [`Pair3::manifolds`] returns them all. `None` for two half-spaces whose overlap is unbounded. Cost: that of the
+    /// separation, plus clipping two faces.
     pub fn manifold(&self, margin: f32) -> Option<Manifold3> {
         let mut hint = Hint::NONE;
         if let Some(cuboids) = self.cuboids() {
@@ -458,8 +459,8 @@ pub(crate) fn limit_of(limit: f32) -> f64 {
     if limit.is_nan() { f64::INFINITY } else { f64::from(limit).max(0.0) }
 }
 
-/// How far apart shapes may be for a contact: what rounds to the margin counts as within it, since the reported number
-/// decides.
+/// How far apart shapes may be for a contact: a separation that rounds to the margin counts as within it, since the
+/// reported number decides.
 #[inline]
 pub(crate) fn reach_of(margin: f32) -> f64 {
     margin.max(0.0).next_up().into()

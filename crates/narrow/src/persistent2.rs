@@ -51,7 +51,7 @@ pub struct Persistent2 {
 }
 
 impl Persistent2 {
-    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
+    /// The persistent manifold of an answer to a job; `manifolds` are those of the answer's batch.
     ///
     /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
     /// where they touch in several parts; and where a point is on no edge, as between corners across a gap. Cost: a
@@ -80,7 +80,7 @@ impl Persistent2 {
         terms.are_sound(found).then_some(Self { manifold: *manifold, terms, poses })
     }
 
-    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` if bodies that continue at that speed
     /// would have drifted too far by the next.
     pub fn lasting(job: &Job2<'_>, answer: &Answer, manifolds: &[Manifold2], step: f64) -> Option<Self> {
         if step > f64::from(Self::most_reach(job)) {
@@ -104,7 +104,7 @@ impl Persistent2 {
         &self.manifold
     }
 
-    /// Whether the shapes overlapped, and do for as long as the manifold is carried on.
+    /// Whether the shapes overlapped, as they do for as long as the manifold is moved along.
     pub const fn overlapping(&self) -> bool {
         self.terms.overlapping
     }
@@ -114,13 +114,13 @@ impl Persistent2 {
         self.terms.margin
     }
 
-    /// Whether the numbers beside the manifold are possible ones: for data that was read from a file.
+    /// Whether the numbers stored with the manifold are possible: for data that was read from a file.
     pub fn is_sound(&self) -> bool {
         self.terms.are_sound([self.manifold.separation, self.manifold.error])
     }
 
-    /// Appends the manifold as it is for the poses of A and B; returns false where it must be recomputed. Shapes and
-    /// margin must be those of its job. Its error includes what the drift may cost. Cost: constant, least where no body
+    /// Appends the manifold, moved along to the poses of A and B; returns false if it must be recomputed. Shapes and
+    /// margin must be those of the job. Its error includes the effect of the drift. Cost: constant, least where no body
     /// turned.
     pub fn carry_on(&self, poses: [&Pose2; 2], to: &mut Vec<Manifold2>) -> bool {
         if (0..2).all(|i| poses[i].same_bits(&self.poses[i])) {

@@ -108,7 +108,7 @@ impl Spare3 {
         }
     }
 
-    /// Hands the memory of one to another store that has none. Cost: constant.
+    /// Moves the memory of this store to another one that has none. Cost: constant.
     ///
     /// ```
     /// use asunder_narrow::Spare3;
@@ -129,7 +129,7 @@ impl Spare3 {
 }
 
 impl Persistent3 {
-    /// What can be kept of an answer to a job; `manifolds` are those of the answer's batch.
+    /// The persistent manifolds of an answer to a job; `manifolds` are those of the answer's batch.
     ///
     /// `None` where the bodies are beyond the margin, or so close to it or to touching that rounding may have decided;
     /// where solids touch in several parts; where points are neither on a face, nor where two edges cross, nor, between
@@ -140,7 +140,7 @@ impl Persistent3 {
         Self::made((job, answer, manifolds), &mut Spare3::default())
     }
 
-    /// The same, for bodies that moved by `step` metres in the last frame: `None` where bodies that go on like that
+    /// The same, for bodies that moved by `step` metres in the last frame: `None` if bodies that continue at that speed
     /// would have drifted too far by the next.
     pub fn lasting(
         job: &Job3<'_>,
@@ -196,7 +196,7 @@ impl Persistent3 {
         one.into_iter().chain(more.iter().copied())
     }
 
-    /// Whether the shapes overlapped, and do for as long as the manifolds are carried on.
+    /// Whether the shapes overlapped, as they do for as long as the manifolds are moved along.
     pub fn overlapping(&self) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.overlapping(),
@@ -212,7 +212,7 @@ impl Persistent3 {
         }
     }
 
-    /// Whether the numbers beside the manifolds are possible ones: for data that was read from a file.
+    /// Whether the numbers stored with the manifolds are possible: for data that was read from a file.
     pub fn is_sound(&self) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.is_sound(),
@@ -220,9 +220,9 @@ impl Persistent3 {
         }
     }
 
-    /// Appends the manifolds as they are for the poses of A and B; returns false where they must be recomputed. Shapes
-    /// and margin must be those of its job. Their errors include what the drift may cost. Cost: linear in the points,
-    /// least where no body turned.
+    /// Appends the manifolds, moved along to the poses of A and B; returns false if they must be recomputed. Shapes and
+    /// margin must be those of the job. Their errors include the effect of the drift. Cost: linear in the points, least
+    /// where no body turned.
     pub fn carry_on(&self, poses: [&Pose3; 2], to: &mut Vec<Manifold3>) -> bool {
         match &self.0 {
             Kind::Solids(kept) => kept.carry_on(poses, to),

@@ -1,5 +1,5 @@
-//! What a body stands on, leans against or is stuck in: what [`next_impact_beside`](Pair3::next_impact_beside) passes
-//! over.
+//! Touches: what a body stands on, leans against or is stuck in, and [`next_impact_beside`](Pair3::next_impact_beside)
+//! passes over.
 
 use crate::answer::{Manifold2, Manifold3};
 use crate::lists::{with_manifolds2, with_manifolds3};
@@ -7,8 +7,8 @@ use crate::pair2::Pair2;
 use crate::pair3::Pair3;
 use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// A contact of a body with something besides the other body of a pair: the tile that it stands on, when the next tile
-/// is asked about.
+/// A contact of a body with a third body, outside of a pair: for example the tile on which it stands, in a query about
+/// the next tile.
 ///
 /// ```
 /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, glam::Vec3};
@@ -28,13 +28,13 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch<V> {
-    /// Unit axis in world axes, from the body to what it touches.
+    /// Unit axis in world axes, from the body to the touched one.
     pub normal: V,
-    /// How far the two are apart along it, in metres: negative where they overlap.
+    /// The separation of the two along it, in metres: negative if they overlap.
     pub separation: f32,
 }
 
-/// A contact of a body in the plane with something besides the other body of a pair: see [`Touch`].
+/// A contact of a body in the plane with a third body: see [`Touch`].
 ///
 /// ```
 /// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
@@ -48,11 +48,11 @@ pub struct Touch<V> {
 /// ```
 pub type Touch2 = Touch<Vec2>;
 
-/// A contact of a body in space with something besides the other body of a pair: see [`Touch`].
+/// A contact of a body in space with a third body: see [`Touch`].
 pub type Touch3 = Touch<Vec3>;
 
 impl Touch<Vec2> {
-    /// From a manifold, as its A or its B sees it.
+    /// The touch of a manifold, from the point of view of its A or its B.
     pub fn of(manifold: &Manifold2, is_a: bool) -> Self {
         let normal = if is_a { manifold.normal } else { -manifold.normal };
         Self { normal, separation: manifold.separation }
@@ -66,7 +66,7 @@ impl Touch<Vec2> {
 }
 
 impl Touch<Vec3> {
-    /// From a manifold, as its A or its B sees it.
+    /// The touch of a manifold, from the point of view of its A or its B.
     pub fn of(manifold: &Manifold3, is_a: bool) -> Self {
         let normal = if is_a { manifold.normal } else { -manifold.normal };
         Self { normal, separation: manifold.separation }
@@ -80,7 +80,7 @@ impl Touch<Vec3> {
 }
 
 impl Pair2<'_> {
-    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the yes or no, and of the
+    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the overlap test, and of the
     /// manifolds.
     ///
     /// ```
@@ -103,7 +103,7 @@ impl Pair2<'_> {
 }
 
 impl Pair3<'_> {
-    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the yes or no, and of the
+    /// Appends A's contacts with B, one per manifold, if the two overlap. Cost: that of the overlap test, and of the
     /// manifolds.
     ///
     /// ```

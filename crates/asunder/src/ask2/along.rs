@@ -1,4 +1,4 @@
-//! Queries along a way in the plane: rays and moved shapes.
+//! Casts in the plane: rays and moved shapes.
 
 use crate::query::{CastAnswer2, Filter2, RayAnswer2, bodies_along, bodies_along_ray, first_ahead};
 use crate::space::Plane;
@@ -7,16 +7,16 @@ use asunder_geometry::glam::Vec2;
 use asunder_geometry::{Pose2, Ray2, Shape2};
 use core::ops::ControlFlow;
 
-/// # Queries along a way
-/// What rays and moved shapes meet; all else is as with the other queries, above.
+/// # Casts
+/// The bodies that rays and moved shapes meet. Order, filters, threads and costs are those of the other queries, above.
 impl World<Plane> {
     /// The first body that a ray meets, no later than at `limit`.
     ///
     /// The limit is in lengths of the ray's direction and may be infinite; a NaN counts as no limit, and a negative
-    /// limit as zero. A body that the ray starts in is met at 0. Of bodies met at the same distance, the one in the
+    /// limit as zero. A body in which the ray starts is met at 0. Among bodies met at the same distance, the one in the
     /// lowest slot is found.
     ///
-    /// Cost: looks at bodies in order of their boxes, and at none behind the first.
+    /// Cost: it tests bodies in the order in which the ray meets their boxes, and none behind the first hit.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
@@ -33,8 +33,7 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).first()
     }
 
-    /// All bodies that a ray meets, through all that is in the way, each reported as [`World::cast_ray`] reports the
-    /// first.
+    /// All bodies that a ray meets, each reported as [`World::cast_ray`] reports the first. No body stops the ray.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::DVec2, glam::Vec2};
@@ -54,8 +53,8 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).all(into);
     }
 
-    /// Like [`World::cast_ray_all`], but one by one, in no promised order. To know whether anything is in the way,
-    /// break off at once.
+    /// Like [`World::cast_ray_all`], but one by one, in no promised order. To find out whether anything is in the way,
+    /// break off at the first answer.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
@@ -77,14 +76,14 @@ impl World<Plane> {
         bodies_along_ray(self, ray, limit, filter).visit(visitor)
     }
 
-    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Of
-    /// bodies met at the same time, the one in the lowest slot. A body that the shape touches already is met at
-    /// fraction 0.
+    /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Among
+    /// bodies met at the same time, the one in the lowest slot is found. A body that the shape already touches is met
+    /// at fraction 0.
     ///
-    /// - A displacement of zero meets what the shape overlaps, except one-sided ground that it is behind; one that is
-    ///   not finite meets nothing.
-    /// - To slide on along what was met, keep a skin of a tenth of a millimetre: normals are f32, so a velocity from
-    ///   which the normal was removed still points slightly into the surface.
+    /// - With a displacement of zero it finds a body that the shape overlaps, except one-sided ground that the shape is
+    ///   behind; with one that is not finite it finds none.
+    /// - To slide on along the surface that was met, keep a skin of a tenth of a millimetre: normals are f32, so a
+    ///   velocity from which its part along the normal was removed still points slightly into the surface.
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::{DVec2, Vec2}};
@@ -107,16 +106,18 @@ impl World<Plane> {
         bodies_along(self, from, displacement, filter).first()
     }
 
-    /// What a moved shape runs into next: like [`World::cast_shape`], but what it touches at the start is passed over,
-    /// even if the displacement leads into it. So a ball on a floor finds the wall, even where both are one body.
+    /// The next body that a moved shape runs into: like [`World::cast_shape`], but parts that the shape touches at the
+    /// start are passed over, even if the displacement leads into them. So a ball on a floor finds the wall, even where
+    /// both are one body.
     ///
-    /// - Whatever is level with what is touched is passed over, too: by the rule of
+    /// - Parts that are flush with a touched one are passed over, too: by the rule of
     ///   [`Pair2::next_impact`](crate::Pair2::next_impact), and for other bodies, like the tiles of a floor, by that of
     ///   [`next_impact_beside`](crate::Pair2::next_impact_beside).
-    /// - A displacement that is zero, or not finite, leads into nothing: `None`.
+    /// - A displacement that is zero or not finite gives `None`.
     /// - A [bullet](crate::Collider2::bullet) with this displacement as its motion gets the same answer, but not bit
-    ///   for bit. Both stop a little before they touch, within the error that [`Pair2::cast`](crate::Pair2::cast)
-    ///   states; where the shape grazes what it meets, that is a longer way, and the fractions differ by as much.
+    ///   for bit. Both stop a little before the shapes touch, within the error that [`Pair2::cast`](crate::Pair2::cast)
+    ///   states; where the shape meets a surface at a grazing angle, that gap is a longer path, and the fractions
+    ///   differ by as much.
     ///
     /// ```
     /// use asunder::{Chain, Circle, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};

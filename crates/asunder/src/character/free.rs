@@ -1,4 +1,4 @@
-//! Moves a shape out of what it overlaps.
+//! Moves a shape out of the solids that it overlaps.
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
@@ -20,7 +20,7 @@ const SWEEPS: usize = 32;
 const LONG: f64 = 1.5;
 
 /// How many places are tried along one direction. The first is as far away as any way out must lead, and each is
-/// further than the one before by [`GROWTH`]: up to four times as far, so that nobody is taken through thicker walls.
+/// further than the one before by [`GROWTH`]: up to four times as far, so that no shape is taken through thicker walls.
 const TRIES: usize = 7;
 const GROWTH: f64 = 1.25;
 

@@ -27,10 +27,11 @@ impl Linear for DVec2 {
 }
 
 impl Walk2 {
-    /// The defaults for a shape, by its size; see the fields. `up` may have any length.
+    /// The defaults for the size of a shape: see the fields. `up` may have any length.
     ///
     /// # Errors
-    /// An `up` that is not finite, or zero. If no direction is to be up, set the field to zero afterwards.
+    /// An `up` that is zero or not finite. For a character without an upward direction, set the field to zero
+    /// afterwards.
     pub fn new(shape: &Shape2, up: Vec2) -> Result<Self, DirectionError> {
         // A half-plane's normal must be a direction, too: the same check.
         HalfPlane::new(up)?;
@@ -39,28 +40,28 @@ impl Walk2 {
 }
 
 /// # Characters
-/// The world moves nothing by itself; these calls tell where a character would be. A [`Filter2`] says what it meets:
-/// leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. All are functions of
-/// the bodies, and allocate nothing.
+/// The world moves no body by itself; these calls compute where a character would be. A [`Filter2`] decides which
+/// bodies it meets: leave out its own body with [`without`](crate::Filter::without). Sensors are never in the way. All
+/// results are functions of the bodies alone, and nothing is allocated.
 impl World<Plane> {
-    /// Moves a shape out of all solids that it overlaps, by as little as may be, and about 1/4096 of its bounding
-    /// radius clear of them, or 2^-46 of its distance from the origin if that is more.
+    /// Moves a shape out of all solids that it overlaps, by as little as possible, and clear of them by about 1/4096 of
+    /// its bounding radius, or 2^-46 of its distance from the origin if that is more.
     ///
-    /// 1. It is pushed out of the body that it is deepest in. If that is enough, there is no shorter way out of that
+    /// 1. It is pushed out of the body in which it is deepest. If that frees it, this is the shortest way out of that
     ///    body.
-    /// 2. Otherwise it is pushed out of the planes of all manifolds at once, of the sixteen deepest, and so on, up to
-    ///    sixteen times.
-    /// 3. Where that does not free it, or only by a way half as long again as the one out of that body alone, straight
+    /// 2. Otherwise it is pushed out of the planes of all manifolds at once (of the sixteen deepest, if there are
+    ///    more), and this is repeated up to sixteen times.
+    /// 3. If that does not free it, or only by a way half as long again as the one out of that body alone, straight
     ///    ways are tried: along the normals of those manifolds and in eight directions all around, up to four times as
     ///    far.
     /// 4. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest
     ///    overlap was shallowest.
     ///
-    /// No path is looked for: a shape in a thin wall may come out on the other side. The exception: nothing takes a
-    /// convex part's middle through a chain, unless from behind where it has one side.
+    /// No path is searched for: a shape in a thin wall may come out on the other side. The exception: no push and no
+    /// straight way takes a convex part's centre through a chain, unless from behind where it has one side.
     ///
-    /// Cost: a round is a query for boxes, and a manifold for each body met; a straight way is up to twelve queries for
-    /// boxes, and a yes or no for each body met.
+    /// Cost: each round takes a query for boxes, and a manifold for each body met; each straight way takes up to twelve
+    /// queries for boxes, and an overlap test for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -77,15 +78,15 @@ impl World<Plane> {
         Freeing { world: self, shape, start, target: least_skin::<Plane>(shape, start), filter }.all_around()
     }
 
-    /// Whether a shape overlaps no solid, as [`depenetrate`](World::depenetrate) and
-    /// [`move_and_slide`](World::move_and_slide) see it. Exact.
+    /// Whether a shape overlaps no solid, by the rules of [`depenetrate`](World::depenetrate) and
+    /// [`move_and_slide`](World::move_and_slide). Exact.
     ///
-    /// Touching counts as overlapping; one-sided ground that the shape is behind does not. So this does not tell
-    /// whether there is room to stand up: under a low one-sided ceiling, the middle of a standing character is behind
-    /// that ceiling. Before the shape grows, cast the crouching one upwards by the difference in height: see
+    /// Touching counts as overlapping; one-sided ground does not count while the shape is behind it. So this does not
+    /// answer whether there is room to stand up: under a low one-sided ceiling, the centre of a standing character is
+    /// behind that ceiling. Before the shape grows, cast the crouching one upwards by the difference in height: see
     /// [`characters`](crate::guide::characters).
     ///
-    /// Cost: a query for boxes, and a yes or no for each body met.
+    /// Cost: a query for boxes, and an overlap test for each body met.
     ///
     /// ```
     /// use asunder::{Circle, Rect, Collider2, Filter2, Pose2, Shape2, World2, glam::Vec2};
@@ -100,31 +101,30 @@ impl World<Plane> {
         !is_overlapping(self, at, &filter.solid())
     }
 
-    /// Moves a shape by a displacement, in metres, and slides it along what is in the way: for a character, once a
-    /// frame, by its velocity times the time, gravity included.
+    /// Moves a shape by a displacement, in metres, and slides it along obstacles: for a character, once per frame, by
+    /// its velocity times the time step, gravity included.
     ///
-    /// - Where it overlaps solids, it is freed first, by the pushes of [`depenetrate`](World::depenetrate) but not by
-    ///   its straight ways all around: a character that is crushed between a floor and what comes down on it would be
-    ///   thrown out sideways. Where pushes lead nowhere it does not move on: `is_free` is false, and `pose` is the one
-    ///   tried whose deepest overlap was shallowest, even if `depenetrate` finds a way out.
-    /// - A free shape moves by casts alone: it never enters anything, nor passes through, however far it goes.
+    /// - If it overlaps solids, it is freed first, by the pushes of [`depenetrate`](World::depenetrate) but not by its
+    ///   straight ways all around: these would throw a character sideways that is crushed between a floor and a body
+    ///   that comes down on it. If pushes do not free it, it does not move on: `is_free` is false, and `pose` is the
+    ///   one tried whose deepest overlap was shallowest, even if `depenetrate` finds a way out.
+    /// - A free shape moves by casts alone: it never enters a solid, nor passes through one, however far it goes.
     /// - On ground that it can walk on, downward motion is cancelled, so it does not slide off. Steeper ground is a
-    ///   wall when walked into, and a slope to slide down when falling.
+    ///   wall for a walking character, and a slope to slide down for a falling one.
     /// - Standing on ground, it climbs at most one step per call and follows the ground downwards. A displacement that
     ///   points up is a jump: it does neither and finds no ground. So add what a lift carries upwards to the pose, not
     ///   to the displacement.
-    /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting what it
-    ///   took to free it, or to move it back to its skin's distance out of an acute corner.
-    /// - A displacement that is not finite counts as none. Nothing goes beyond 1e9 m: of a displacement that leads
-    ///   there, what would end there is left out, and so all of it where nothing is in the way. Half-planes do not
-    ///   move.
-    /// - From a free start, where it ends depends on where the bodies are, and not on the order in which they were
-    ///   inserted; but of bodies met at exactly the same distance, the one in the lowest slot counts as met first, as
-    ///   in all casts. A shape that starts in several bodies at once may be freed elsewhere, or not, if their order was
-    ///   another.
+    /// - It is moved by no more than the displacement, a step, a snap and three skins together, not counting the way on
+    ///   which it was freed, or moved back to its skin's distance out of an acute corner.
+    /// - A displacement that is not finite counts as zero. No shape goes beyond 1e9 m: any part of the move that would
+    ///   end there is left out, and so the whole move if nothing is in the way. Half-planes do not move.
+    /// - From a free start, its end depends on the poses of the bodies, and not on the order in which they were
+    ///   inserted, with one exception: among bodies met at exactly the same distance, the one in the lowest slot counts
+    ///   as met first, as in all casts. A shape that starts in several bodies at once may be freed elsewhere, or not at
+    ///   all, if they were inserted in another order.
     ///
-    /// Cost: a cast for each wall, and two for the ground; one more at an edge that may carry it, and three before a
-    /// wall that may be a step.
+    /// Cost: a cast for each wall, and two for the ground; one more at an edge on which it may stand, and three before
+    /// a wall that may be a step.
     ///
     /// ```
     /// use asunder::{Capsule2, Rect, Collider2, Filter2, Pose2, Shape2, Walk2, World2, glam::Vec2};

@@ -1,4 +1,4 @@
-//! Moves a character and turns its way along what it meets.
+//! Moves a character and turns its way along obstacles.
 
 use super::clip::along;
 use super::free::{Freeing, Near, has_entered, is_overlapping, near, push};
@@ -151,8 +151,8 @@ fn within_reach<P: Linear>(displacement: P) -> P {
 }
 
 impl<S: Walks> Mover<'_, S> {
-    /// Frees the shape of what it overlaps, or moves it away from what is closer than its skin. Returns the first pose
-    /// at which it was free.
+    /// Frees the shape from solids that it overlaps, or moves it away from those closer than its skin. Returns the
+    /// first pose at which it was free.
     ///
     /// A character that goes into a wall by less than a skin meets nothing on the way, and is back here with the next
     /// call: so that wall is noted here.
@@ -233,7 +233,7 @@ impl<S: Walks> Mover<'_, S> {
         slid.ground = if is_rising { None } else { self.land(reach).map(|hit| hit.note()) };
     }
 
-    /// The rest of the displacement, turned along what was met.
+    /// The rest of the displacement, turned along the planes met so far.
     ///
     /// - A bound that holds cancels the downward part: nothing slides off ground that can be walked on.
     /// - A plane that is too steep is a wall when walked into, and a slope when falling.
@@ -358,11 +358,11 @@ impl<S: Walks> Mover<'_, S> {
         if is_face { bound } else { Bound { normal: up, is_ground: false, wall: None, holds: true, ..bound } }
     }
 
-    /// Whether a character can stand on what it met: on ground, and on an edge no higher than a step, behind which
-    /// there is ground.
+    /// Whether a character can stand on an obstacle that it met: on ground, and on an edge no higher than a step,
+    /// behind which there is ground.
     ///
-    /// The normal at an edge depends on where round feet happen to touch it. What counts there is the surface just
-    /// behind, of whichever body.
+    /// The normal at an edge depends on where round feet happen to touch it. So there, the surface just behind the edge
+    /// decides, of whichever body.
     fn holds(&self, hit: &Hit<S>) -> bool {
         let Gait { up, skin, steepest, step, .. } = self.gait;
         let rise = hit.normal.dot(up);
@@ -381,8 +381,8 @@ impl<S: Walks> Mover<'_, S> {
         found.is_some_and(|found| !found.inside && S::wide(found.normal).dot(up) >= steepest)
     }
 
-    /// What a ray enters first, within its own length. By a visitor, so that it works within a query without memory of
-    /// its own.
+    /// The first body that a ray enters, within its own length. By a visitor, so that it works within a query without
+    /// memory of its own.
     fn first_entered(&self, ray: &S::Ray) -> Option<Enter<S>> {
         let mut first: Option<Enter<S>> = None;
         let rank = |entered: &Enter<S>| (!entered.inside, entered.distance, slot_of(entered.body));

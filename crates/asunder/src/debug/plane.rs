@@ -7,11 +7,11 @@ use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, HalfPlane, Pose2, Shape2};
 
 impl World<Plane> {
-    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
-    /// what it is about.
+    /// Passes the lines that show shapes, boxes, columns, contacts and normals to a closure, in world coordinates, each
+    /// with its kind.
     ///
-    /// The same world always gives the same lines in the same order; columns are the same for a world with the same
-    /// past. Cost: linear in what is drawn; nothing is allocated.
+    /// The same world always gives the same lines in the same order; columns are the same for worlds with the same
+    /// history. Cost: linear in the number of lines; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider2, DebugLine, DebugOptions, Rect, World2, glam::{DVec2, Vec2}};
@@ -27,10 +27,10 @@ impl World<Plane> {
         self.draw(None, options, line);
     }
 
-    /// Hands over only the lines that reach into a region, in the order in which they come for the whole world.
+    /// Like [`debug_lines`](World::debug_lines), but passes only the lines that reach into a region, in the same order.
     ///
-    /// Cost: a look at every body, contact and box, and at all that there is of a body that reaches in; nothing is
-    /// allocated.
+    /// Cost: a test of every body, contact and box, and of everything that is drawn of a body that reaches in; nothing
+    /// is allocated.
     ///
     /// ```
     /// use asunder::{Aabb2, Collider2, DebugOptions, Rect, Pose2, World2, glam::Vec2};
@@ -120,8 +120,8 @@ impl World<Plane> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape, in world coordinates. The shape need be in no world: it may be a query's,
-    /// say, or the ghost of what is to be built. Lengths are those of the options.
+    /// Passes the outline of a shape to a closure, in world coordinates. The shape need not be in a world: it may be
+    /// that of a query, or the preview of something to be built. Lengths are those of the options.
     ///
     /// To draw only part of a large world, use [`debug_lines_in`](World::debug_lines_in).
     ///

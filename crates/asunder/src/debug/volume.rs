@@ -8,11 +8,11 @@ use asunder_geometry::{Aabb3, Ground, HalfSpace, Pose3, Shape3};
 use core::ops::ControlFlow;
 
 impl World<Volume> {
-    /// Hands over the lines that show shapes, boxes, columns, contacts and normals, in world coordinates, each with
-    /// what it is about.
+    /// Passes the lines that show shapes, boxes, columns, contacts and normals to a closure, in world coordinates, each
+    /// with its kind.
     ///
-    /// The same world always gives the same lines in the same order; columns are the same for a world with the same
-    /// past. Cost: linear in what is drawn; nothing is allocated.
+    /// The same world always gives the same lines in the same order; columns are the same for worlds with the same
+    /// history. Cost: linear in the number of lines; nothing is allocated.
     ///
     /// ```
     /// use asunder::{Collider3, Cuboid, DebugLine, DebugOptions, Sphere, World3, glam::Vec3};
@@ -35,10 +35,10 @@ impl World<Volume> {
         self.draw(None, options, line);
     }
 
-    /// Hands over only the lines that reach into a region, in the order in which they come for the whole world.
+    /// Like [`debug_lines`](World::debug_lines), but passes only the lines that reach into a region, in the same order.
     ///
-    /// Of ground, only what is there is looked at. Cost: linear in what is drawn, with a look at every body, contact
-    /// and box.
+    /// Of ground, only the part near the region is processed. Cost: linear in the number of lines, plus a test of every
+    /// body, contact and box.
     ///
     /// ```
     /// use asunder::{Aabb3, Collider3, DebugOptions, Cuboid, Pose3, World3, glam::Vec3};
@@ -131,8 +131,8 @@ impl World<Volume> {
 }
 
 impl DebugOptions {
-    /// Hands over the outline of a shape, in world coordinates. The shape need be in no world: it may be a query's,
-    /// say, or the ghost of what is to be built. Lengths are those of the options.
+    /// Passes the outline of a shape to a closure, in world coordinates. The shape need not be in a world: it may be
+    /// that of a query, or the preview of something to be built. Lengths are those of the options.
     ///
     /// To draw only part of a large world, use [`debug_lines_in`](World::debug_lines_in).
     ///

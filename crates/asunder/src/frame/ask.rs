@@ -43,7 +43,7 @@ pub(super) struct Chunk<'c, S: Space> {
     pub(super) settled: &'c mut Settled<S>,
 }
 
-/// What all chunks need to know, shared by all threads.
+/// The data that all chunks need, shared by all threads.
 pub(super) struct Asker<'a, S: Space> {
     pub(super) bodies: &'a SlotMap<S::Key, Collider<S>>,
     pub(super) keys: &'a [S::Key],
@@ -66,7 +66,7 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) persistent: &'a Slab<S::Persistent>,
 }
 
-/// What is done about a pair.
+/// How a pair is processed.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Way {
     /// Nothing can have changed: carried over.
@@ -205,8 +205,8 @@ fn blank<K: Key>() -> Candidate<K> {
     Candidate { pair, keys, hint: Hint::NONE, persistent, contact, until: f64::NEG_INFINITY }
 }
 
-/// Whether what is known of a pair is about another shape than a body has now. Checked for every pair; mostly there is
-/// no such body, and then no call.
+/// Whether the kept results of a pair are for another shape than a body has now. Checked for every pair; mostly there
+/// is no such body, and then no call.
 #[inline(always)]
 fn of_another_shape(reshaped: &[u32], pair: PairId) -> bool {
     !reshaped.is_empty() && is_either_among(reshaped, pair)

@@ -1,4 +1,4 @@
-//! After the contacts: what bullets run into during their motions.
+//! After the contacts: the impacts of bullets during their motions.
 //!
 //! ```text
 //! for each candidate pair with a bullet, and a motion: when do they first touch?     in parallel

@@ -24,7 +24,7 @@ struct Met {
     sensor: bool,
 }
 
-/// What a chunk hands over: the shared lists are made from it when all chunks are done.
+/// The results of a chunk: the shared lists are made from them when all chunks are done.
 #[derive(Debug)]
 pub(crate) struct Settled<S: Space> {
     /// The chunk's pairs when it was last processed, if they were noted.
@@ -32,7 +32,7 @@ pub(crate) struct Settled<S: Space> {
     are_noted: bool,
     /// Whether it is skipped in this update.
     is_quiet: bool,
-    /// What is done about each pair.
+    /// How each pair is processed.
     pub(super) ways: Vec<Way>,
     /// Contacts of last update that are over, and had begun, by their numbers.
     pub(super) ended: Vec<u32>,
@@ -47,8 +47,8 @@ pub(crate) struct Settled<S: Space> {
     pub(super) tally: Tally,
 }
 
-/// What later stages need of a chunk's records without reading them again: they are large, and out of the cache by
-/// then.
+/// The data that later stages need of a chunk's records, so that they need not read these again: they are large, and
+/// out of the cache by then.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     /// The second body of each; during a count, followed by the rest of the last count's.
@@ -252,7 +252,7 @@ impl<S: Space> Asker<'_, S> {
         settled.ended.sort_unstable();
     }
 
-    /// Stores what an answer says of a pair for the next update.
+    /// Stores an answer about a pair for the next update.
     fn learn(&self, candidate: &mut Candidate<S::Key>, answer: &Answer) {
         (candidate.hint, candidate.until) = match *answer {
             Answer::Apart { hint, beyond } => {

@@ -1,4 +1,4 @@
-//! What bullets touch before they move: they pass over whatever is flush with it.
+//! The bodies that bullets touch before they move: bullets pass over parts that are flush with these.
 
 use crate::space::Space;
 use crate::world::{World, slot_of};

@@ -1,4 +1,4 @@
-//! The answers to queries.
+//! The results of queries.
 
 use crate::space::{BodyKey2, BodyKey3};
 use crate::world::slot_of;
@@ -23,16 +23,16 @@ use slotmap::Key;
 pub struct RayAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0
-    /// where the ray starts inside.
+    /// Where the ray enters it, in lengths of the ray's direction, as [`Ray3::at`](crate::Ray3::at) takes it; 0 if the
+    /// ray starts inside.
     pub distance: f64,
-    /// How many metres along the ray the distance may be off by.
+    /// Bound on the error of the distance, in metres along the ray.
     pub error: f32,
     /// The point at that distance, in metres.
     pub point: P,
-    /// Unit outward normal of the body there; against the ray's direction where it starts inside.
+    /// Unit outward normal of the body at that point; opposite to the ray's direction if the ray starts inside.
     pub normal: N,
-    /// Whether the ray starts in the body; touching counts. Exact.
+    /// Whether the ray starts inside the body; touching counts. Exact.
     pub inside: bool,
     /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
@@ -65,22 +65,23 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 pub struct CastAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// The share of the displacement after which they touch, 0 to 1. Before it they do not touch: it is never too
-    /// great. Multiply in f64: rounded to f32, it may be too great.
+    /// The fraction of the displacement after which they touch, 0 to 1. It is never too great: before it they do not
+    /// touch. Multiply in f64: rounded to f32, it may be too great.
     pub fraction: f64,
-    /// Metres that they may still be apart then; 0 where they touch at the start.
+    /// Bound on the gap that is still left between them then, in metres; 0 if they touch at the start.
     pub error: f32,
-    /// Whether they touch at the start. Exact. If so, the fraction is 0, and the normal is that of the least depth.
+    /// Whether they touch at the start. Exact. If so, the fraction is 0, and the normal is the direction of least
+    /// depth.
     pub overlapping: bool,
     /// Unit normal in world axes, from the moved shape to the body.
     pub normal: N,
-    /// Where they meet, on the body, in metres.
+    /// The point of contact on the body, in metres.
     pub point: P,
-    /// Where they meet, on the moved shape, in world axes, relative to its position then, in metres.
+    /// The point of contact on the moved shape, in world axes, relative to its position then, in metres.
     pub anchor: N,
     /// Which part of the body: the part of a compound, the triangle of ground, the segment of a chain; else 0.
     pub part: u32,
-    /// Which part of the moved shape, where that is a compound; else 0.
+    /// Which part of the moved shape, if that is a compound; else 0.
     pub part_of_moved: u32,
 }
 
@@ -108,23 +109,23 @@ pub type CastAnswer3 = CastAnswer<BodyKey3, Vec3, DVec3>;
 pub struct NearAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// The distance in metres: 0 where they overlap, and positive elsewhere.
+    /// The distance in metres: 0 if they overlap, else positive.
     pub distance: f64,
     /// |true - reported| <= error, in metres.
     pub error: f32,
-    /// Whether they share a point: whether the body holds the point that was asked about. Exact.
+    /// Whether they share a point; for a query by a point, whether the body contains it. Exact.
     pub overlapping: bool,
-    /// Unit normal in world axes towards the body. Zero where they overlap.
+    /// Unit normal in world axes towards the body. Zero if they overlap.
     pub normal: N,
-    /// The point of what was asked about that is closest to the body, in metres.
+    /// The point of the query's shape that is closest to the body, or the query's point, in metres.
     pub from: P,
-    /// The point of the body that is closest to it, in metres. Where the body holds the point that was asked about,
-    /// that point; where shapes overlap, both points are those of their deepest contact (of two half-spaces, the
-    /// position of the one that was asked about).
+    /// The point of the body that is closest to `from`, in metres. If the body contains the query's point, it is that
+    /// point. If shapes overlap, both points are those of their deepest contact (for two half-spaces, the position of
+    /// the query's).
     pub point: P,
-    /// Which part of the body that point is on: the part of a compound, the triangle of ground, the segment of a chain;
-    /// else 0, as where the body holds the point that was asked about. Where shapes overlap, the part that the manifold
-    /// of their deepest contact names.
+    /// Which part of the body `point` is on: the part of a compound, the triangle of ground, the segment of a chain;
+    /// else 0. Also 0 if the body contains the query's point. If shapes overlap, the part in the manifold of their
+    /// deepest contact.
     pub part: u32,
 }
 

@@ -72,7 +72,7 @@ impl<'a, S: Space> Filter<'a, S> {
         }
     }
 
-    /// Asks as a body of these layers would: finds only bodies that these layers meet, where both sides must agree.
+    /// Queries as a body of these layers: finds only bodies whose layers and these agree to meet.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Layers, Ray3, Sphere, World3, glam::Vec3};
@@ -94,16 +94,16 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out one body, such as the one that asks. A stale key leaves out nobody. Another call replaces the one
-    /// before: to leave out several, use [`without_all`](Self::without_all), or their owner.
+    /// Leaves out one body, such as the one that makes the query. A stale key leaves out no body. Another call replaces
+    /// the one before: to leave out several bodies, use [`without_all`](Self::without_all), or their owner.
     #[must_use]
     pub const fn without(mut self, body: S::Key) -> Self {
         self.without = Some(body);
         self
     }
 
-    /// Leaves out some bodies, such as the one that asks and what it carries. Another call replaces the one before.
-    /// Cost: for each body that is met, linear in the bodies left out.
+    /// Leaves out several bodies, such as the one that makes the query and those that it carries. Another call replaces
+    /// the one before. Cost: for each body that is met, linear in the number of bodies left out.
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Sphere, World3, glam::Vec3};
@@ -119,7 +119,8 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out all bodies of an owner, such as the parts of the one that asks. Another call replaces the one before.
+    /// Leaves out all bodies of an owner, such as the parts of the character that makes the query. Another call
+    /// replaces the one before.
     #[must_use]
     pub const fn without_owner(mut self, owner: u64) -> Self {
         self.without_owner = Some(owner);
@@ -133,11 +134,11 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Leaves out, as a whole, whatever a ray starts in and whatever a moved shape touches at the start: for shots out
-    /// of a vehicle, and for cameras that start in somebody's head.
+    /// Leaves out every body in which a ray starts or which a moved shape touches at the start: for shots out of a
+    /// vehicle, and for cameras that start in a character's head.
     ///
-    /// - Ground that the query starts on is left out as well, so start a little off it.
-    /// - It changes nothing for queries without a way, for `cast_shape_onwards`, which passes over parts, and for
+    /// - Bodies are left out as a whole, ground that the query starts on as well: so start a little off it.
+    /// - It has no effect on queries that are no casts, on `cast_shape_onwards`, which passes over single parts, and on
     ///   characters.
     ///
     /// ```
@@ -158,15 +159,15 @@ impl<'a, S: Space> Filter<'a, S> {
         self
     }
 
-    /// Finds only bodies for which this says yes. It is asked last, about bodies whose boxes may be met, in no promised
-    /// order; it may query the world in turn. Another call replaces the one before.
+    /// Finds only bodies for which the closure returns true. It is called last, for bodies whose boxes may be met, in
+    /// no promised order, and may itself query the world. Another call replaces the one before.
     #[must_use]
     pub const fn only(mut self, only: &'a (dyn Fn(S::Key, &Collider<S>) -> bool + Sync)) -> Self {
         self.only = Some(only);
         self
     }
 
-    /// Finds what is touched at the start, too: for a character, which stands on something.
+    /// Also finds bodies that are touched at the start: for a character, which stands on one.
     pub(crate) const fn with_touched(mut self) -> Self {
         self.is_apart = false;
         self

@@ -109,7 +109,7 @@ struct Made<B> {
 }
 
 impl<B: Bounds> Tree<B> {
-    /// The tree, built now if it is missing. Threads that ask meanwhile wait for it.
+    /// The tree, built now if it is missing. Threads that query meanwhile wait for it.
     fn get(&self, make: impl FnOnce(&mut Made<B>)) -> &Index<B> {
         let made = self.made.get_or_init(|| {
             // Even in a poisoned lock it is only memory for reuse, whatever its contents.

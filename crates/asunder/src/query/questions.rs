@@ -1,4 +1,4 @@
-//! Queries, each as a set of boxes and what it asks of a body.
+//! Queries, each as a set of boxes and a test of a body.
 
 use super::answer::Met;
 use super::filter::Filter;
@@ -159,7 +159,7 @@ pub(crate) fn parts_along<'q, S: Asked>(
     })
 }
 
-/// What a moved shape runs into first, except what it touches at the start and what is flush with that.
+/// The first part that a moved shape runs into, except those that it touches at the start and those flush with them.
 pub(crate) fn first_ahead<S: Asked>(
     world: &World<S>,
     at: Posed<'_, S>,
@@ -183,7 +183,7 @@ pub(crate) fn first_ahead<S: Asked>(
     })
 }
 
-/// Which bodies a moved shape runs into, except what it touches at the start and what is flush with that.
+/// Which bodies a moved shape runs into, except for parts that it touches at the start and those flush with them.
 fn bodies_ahead<'q, S: Asked>(
     (world, filter): (&'q World<S>, &'q Filter<'q, S>),
     at: Posed<'q, S>,

@@ -5,7 +5,7 @@ use crate::collider::{Collider, Layers, MarginError};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A body, with whatever stands for its shape. Fields that a text lacks get a new body's defaults.
+/// A body, with a stand-in for its shape. Fields that are missing in a text get a new body's defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "Collider", deny_unknown_fields)]
 pub(super) struct BodyForm<Shape, Pose> {

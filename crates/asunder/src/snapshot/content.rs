@@ -1,4 +1,4 @@
-//! What a snapshot holds.
+//! The contents of a snapshot.
 
 use super::body::BodyForm;
 use super::shapes::{Collected, Saved, ShapeRef, Table};
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 /// The number of this format; it changes whenever a field is added, removed or changes its meaning.
 pub(super) const FORMAT: u32 = 6;
 
-/// A world, without what can be derived.
+/// A world, without data that can be derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "World", bound = "", deny_unknown_fields)]
 pub(super) struct Content<S: Saved> {
@@ -79,7 +79,7 @@ pub(super) struct ContactForm<S: Saved> {
     pub(super) manifolds: Vec<S::Manifold>,
 }
 
-/// What the last update counted; its times are not kept.
+/// The counts of the last update; its times are not kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Counts {

@@ -1,8 +1,8 @@
-//! Why a snapshot was refused.
+//! Why a snapshot was rejected.
 
 use crate::collider::MarginError;
 
-/// Why a snapshot was refused.
+/// Why a snapshot was rejected.
 ///
 /// ```
 /// use asunder::{Snapshot2, SnapshotError, World2};
@@ -14,68 +14,68 @@ use crate::collider::MarginError;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The snapshot is of another version of the format than this library's.
+    /// The snapshot has another version of the format than this library.
     Format {
-        /// What was found.
+        /// The version that was found.
         found: u32,
     },
-    /// A shared shape is not a valid one, or a body or a part names one that is not there.
+    /// A shared shape is invalid, or a body or a part refers to one that does not exist.
     Shape {
-        /// Which shape, counted among those of its kind; or the slot of the body.
+        /// The number of the shape among those of its kind, or the slot of the body.
         index: usize,
-        /// What is wrong with it.
+        /// Why it is invalid.
         reason: String,
     },
-    /// A body's margin is not a valid one.
+    /// A body's margin is invalid.
     Margin {
         /// The body's slot.
         slot: usize,
-        /// What is wrong with it.
+        /// Why it is invalid.
         error: MarginError,
     },
-    /// The version of a slot is even or too great, or the distance that its body went is no possible number.
+    /// The version of a slot is even or too great, or the distance that its body has moved is not a possible number.
     Slot {
         /// The slot.
         slot: usize,
     },
-    /// The list of empty slots does not name each of them once.
+    /// The list of empty slots does not contain each of them exactly once.
     Free,
-    /// A key that no body of this world has or ever had.
+    /// A key that no body of this world has or has ever had.
     Key {
-        /// In which list it stands.
+        /// The list that contains it.
         list: &'static str,
-        /// Where in the list.
+        /// Its place in the list.
         index: usize,
     },
-    /// A list is not sorted, or names something twice.
+    /// A list is not sorted, or has an entry twice.
     Order {
-        /// Which list.
+        /// The list.
         list: &'static str,
-        /// The place of the first that is out of order.
+        /// The place of the first entry that is out of order.
         index: usize,
     },
-    /// A contact that contradicts itself, or that no candidate belongs to.
+    /// A contact contradicts itself, or belongs to no candidate.
     Contact {
         /// Its place in the list.
         index: usize,
     },
-    /// A manifold without points, with a number that is not finite, or with a normal that is not of unit length.
+    /// A manifold has no points, a number that is not finite, or a normal that is not of unit length.
     Manifold {
         /// The place of its contact in the list.
         index: usize,
     },
-    /// What is kept of a pair has a number that is not finite, or a manifold that is wrong as in
+    /// The data kept of a pair has a number that is not finite, or a manifold that is invalid as in
     /// [`Manifold`](Self::Manifold).
     Candidate {
         /// Its place in the list.
         index: usize,
     },
-    /// The numbers are not those that were saved. Either the file was damaged, or the format does not keep every
+    /// The numbers differ from those that were saved. Either the file was damaged, or the format does not keep every
     /// bit of a float: serde_json does with its feature `float_roundtrip`.
     Checksum {
-        /// What the snapshot says.
+        /// The checksum that is stored in the snapshot.
         stored: u64,
-        /// What its numbers give.
+        /// The checksum of its numbers.
         found: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! From plain data to a world: whatever can be checked is checked.
+//! From plain data to a world: everything that can be checked is checked.
 
 use super::content::{Content, FORMAT, SlotForm};
 use super::error::SnapshotError;
@@ -171,7 +171,7 @@ fn revived<S: Saved>(
     (1..).zip(slots).map(body).collect()
 }
 
-/// What the world keeps for each slot besides the body, and can be derived from it.
+/// The data that the world keeps for each slot besides the body, and that can be derived from it.
 struct Derived<S: Saved> {
     keys: Vec<S::Key>,
     boxes: Vec<S::Aabb>,

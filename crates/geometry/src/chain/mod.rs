@@ -46,10 +46,10 @@ use tree::Tree;
 ///   impacts hit that straight run only once the two have been apart.
 /// - So a closed chain that winds counter-clockwise is solid from outside, like a polygon, and ground drawn from right
 ///   to left faces up.
-/// - Where a chain leads straight back along itself, it is a wall of no width with a tip.
+/// - Where a chain leads straight back along itself, it is a wall without thickness that ends in a tip.
 ///
 /// # Costs and limits
-/// - A pair with a body costs what the segments near it cost, and the logarithm of their number.
+/// - The cost of a pair with a body is that of the segments near it, plus the logarithm of the number of all.
 /// - A collider with this shape is always fixed.
 /// - 16 to 17 bytes per vertex.
 /// - Fast bodies pass through thin ground unless they are bullets or cast: for ground with an inside, a
@@ -260,7 +260,7 @@ impl Chain {
     /// The visitor returns the limit for the rest. Cost: for a nearest point about the logarithm of the number of
     /// segments.
     ///
-    /// The bound of a box must not exceed what the visitor would find in it. If it is NaN, the box is visited.
+    /// The bound of a box must not exceed any value that the visitor finds in it. If it is NaN, the box is visited.
     ///
     /// ```
     /// use asunder_geometry::{Chain, glam::Vec2};
@@ -278,8 +278,9 @@ impl Chain {
         self.data.tree.visit_nearest(&|segment| self.ends(segment), limit, bound, visit);
     }
 
-    /// An address that two chains have in common exactly when they share their data and have as many sides; valid only
-    /// while both live. It differs from run to run: use it for look-ups, and let no output depend on it.
+    /// An address that two chains have in common exactly when they share their data and both are one-sided or both
+    /// two-sided; valid only while both live. It differs from run to run: use it for look-ups, and let no output depend
+    /// on it.
     #[cfg(feature = "serde")]
     #[doc(hidden)]
     pub fn shared_address(&self) -> usize {

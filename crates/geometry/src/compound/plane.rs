@@ -67,7 +67,7 @@ impl Part2 {
         Self { pose, shape, center }
     }
 
-    /// Where the part is in the compound.
+    /// The pose of the part in the compound.
     #[inline]
     pub const fn pose(&self) -> &Pose2 {
         &self.pose
@@ -146,9 +146,9 @@ impl Compound2 {
         &self.data.parts
     }
 
-    /// Hands every part whose box overlaps this one, in the compound's axes, to `visitor`, each once, until it breaks
+    /// Passes every part whose box overlaps `bounds`, in the compound's axes, to `visitor`, each once, until it breaks
     /// off. The order depends only on the compound and the box. Cost: logarithmic in the parts, and linear in those
-    /// that are handed over.
+    /// that are passed.
     ///
     /// ```
     /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
@@ -172,7 +172,7 @@ impl Compound2 {
         self.data.tree.visit_overlapping(&flat(bounds), |part, _| visitor(part))
     }
 
-    /// Hands every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a
+    /// Passes every part whose box a ray meets to `visitor`, each once and roughly in the order of meeting, up to a
     /// limit that `visitor` may lower: it returns the new one.
     ///
     /// The ray is given in the compound's axes, in metres, and the limit in lengths of its direction. Boxes are widened
@@ -204,8 +204,8 @@ impl Compound2 {
         }
     }
 
-    /// Hands every part whose box is within `limit` metres of this one, in the compound's axes, to `visitor`, each once
-    /// and roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
+    /// Passes every part whose box is within `limit` metres of `bounds`, in the compound's axes, to `visitor`, each
+    /// once and roughly the nearest first, up to a limit that `visitor` may lower: it returns the new one. Cost: as
     /// [`visit_near`](Self::visit_near).
     ///
     /// ```

@@ -34,9 +34,9 @@ pub use error::DecomposeError;
 /// polygons", 1983), and usually only a few more than that. The pose of every part is the identity. Every decision is
 /// an exact orientation test.
 ///
-/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is not a valid shape. Beside a
-/// larger part it is left out, and everything lost lies within 2e-6 m of what is kept; elsewhere the outline is
-/// rejected.
+/// A part with a bounding radius below [`MIN_RADIUS`](crate::tolerance::MIN_RADIUS) is not a valid shape. If it lies
+/// beside a larger part it is left out, and everything lost lies within 2e-6 m of the parts that are kept; otherwise
+/// the outline is rejected.
 ///
 /// Cost: n log n in practice: 5 to 20 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
 ///

@@ -32,7 +32,7 @@ pub enum HeightFieldError {
     Cell {
         /// Which side: 0 along x, 1 along z.
         axis: usize,
-        /// What was given, in metres.
+        /// The given value, in metres.
         value: f32,
     },
     /// A height is NaN or infinite.

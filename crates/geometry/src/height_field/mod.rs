@@ -132,8 +132,8 @@ impl HeightField {
         self.with_holes([(column, row)])
     }
 
-    /// The same field with other heights, in metres, row by row; holes, cells and the solid side stay. For craters,
-    /// say: a field made with `new` and `with_holes` would be built twice. Cost: that of a new field.
+    /// The same field with other heights, in metres, row by row; holes, cells and the solid side stay. For example for
+    /// craters: a field made with `new` and `with_holes` would be built twice. Cost: that of a new field.
     ///
     /// ```
     /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};

@@ -1,4 +1,4 @@
-//! Why a hull cannot be made of some points.
+//! Errors of building a hull from points.
 
 use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIUS};
 
@@ -12,7 +12,7 @@ use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIU
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum HullError {
-    /// Fewer than four points, or none where one would do.
+    /// Fewer than four points, or none where one would be enough.
     TooFewPoints {
         /// How many were given.
         count: usize,
@@ -39,22 +39,22 @@ pub enum HullError {
     },
     /// The points span no volume.
     Flat {
-        /// The dimension of what they span: 0 a point, 1 a line, 2 a plane.
+        /// The dimension of their span: 0 for a point, 1 for a line, 2 for a plane.
         dimension: u8,
     },
     /// The hull has more vertices than it may.
     TooManyVertices {
-        /// How many were found before the search was given up. Merging might have taken a few of them away.
+        /// How many were found before the search was given up. Merging might have removed a few of them.
         at_least: usize,
     },
-    /// The number of vertices asked for is not 4 to 256.
+    /// The requested number of vertices is not 4 to 256.
     VertexLimit {
-        /// What was asked for.
+        /// The requested number.
         max_vertices: usize,
     },
     /// A prism or a pyramid of fewer sides than 3, or of more than its corners allow.
     Sides {
-        /// What was asked for.
+        /// The requested number.
         sides: usize,
         /// The most.
         most: usize,

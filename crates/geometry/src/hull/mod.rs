@@ -72,7 +72,7 @@ struct HullData {
 }
 
 impl Hull {
-    /// The dimension of what the points span: 3 space, 2 a plane, 1 a line, 0 a point. Below 3 only from
+    /// The dimension of the points' span: 3 for space, 2 for a plane, 1 for a line, 0 for a point. Below 3 only from
     /// [`Hull::of_any_dimension`].
     ///
     /// A flat hull has two faces back to back, one half-edge loop each; a segment and a point have one face loop and no

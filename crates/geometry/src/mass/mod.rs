@@ -41,7 +41,7 @@ use crate::shape::{Shape2, Shape3};
 pub enum MassError {
     /// A density that is not finite or not positive.
     Density {
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// A half-plane or half-space, which is unbounded.

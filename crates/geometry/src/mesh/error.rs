@@ -2,7 +2,7 @@
 
 use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 
-/// How many triangles of a mesh were left out. [`TriMesh::is_dropped`](crate::TriMesh::is_dropped) says which.
+/// How many triangles of a mesh were left out. [`TriMesh::is_dropped`](crate::TriMesh::is_dropped) returns which.
 ///
 /// ```
 /// use asunder_geometry::{DroppedTriangles, TriMesh, glam::Vec3};
@@ -55,11 +55,11 @@ pub enum MeshError {
         /// Number of the vertex.
         vertex: usize,
     },
-    /// A triangle names a vertex that was not given.
+    /// A triangle refers to a vertex that was not given.
     NoSuchVertex {
         /// Number of the triangle.
         triangle: usize,
-        /// What it names.
+        /// The vertex number in the triangle.
         vertex: u32,
         /// How many vertices were given.
         count: usize,

@@ -76,8 +76,8 @@ impl TriMesh {
     /// from the front. Cost: half a microsecond to one per triangle.
     ///
     /// # Errors
-    /// No triangles that have an area, or too many; vertices that are not finite or out of range; vertex numbers that
-    /// name no vertex.
+    /// No triangles that have an area, or too many; vertices that are not finite or out of range; vertex numbers
+    /// without a vertex.
     pub fn new(
         vertices: impl Into<Vec<Vec3>>,
         triangles: impl Into<Vec<[u32; 3]>>,
@@ -89,8 +89,8 @@ impl TriMesh {
     /// The same mesh, solid only from the front.
     ///
     /// A triangle that was dropped as another's back (the same three vertices wound the other way) is restored, so that
-    /// leaves and fences that are modelled from both sides are solid from both. In that case the mesh is built anew,
-    /// and its data are not shared; otherwise this costs nothing.
+    /// leaves and fences that are modelled from both sides are solid from both. In that case the mesh is rebuilt, and
+    /// its data are not shared; otherwise this costs nothing.
     ///
     /// ```
     /// use asunder_geometry::{TriMesh, glam::Vec3};

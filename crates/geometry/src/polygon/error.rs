@@ -62,7 +62,7 @@ pub enum PolygonError {
     WindsRepeatedly,
     /// A regular polygon of fewer sides than 3, or of more than [`MAX_POLYGON_VERTICES`].
     Sides {
-        /// What was asked for.
+        /// The requested number.
         sides: usize,
     },
     /// A radius of a regular polygon that is not positive and finite.

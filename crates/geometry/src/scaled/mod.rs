@@ -39,7 +39,7 @@ pub enum ScaleError {
     Factor {
         /// Which axis, 0 for x.
         axis: usize,
-        /// What was given.
+        /// The given value.
         value: f32,
     },
     /// A round shape, or a rounding, would not stay round, as the factors differ in magnitude.

@@ -73,21 +73,21 @@ enum Meeting {
     Open,
 }
 
-/// Where a ray first meets a posed shape, within `limit` lengths of its direction. The limit may be infinite; a NaN
-/// counts as none, and a negative limit as zero.
+/// The first hit of a ray on a posed shape, within `limit` lengths of its direction. The limit may be infinite; a NaN
+/// counts as no limit, and a negative limit as zero.
 ///
 /// - An origin inside the shape, or on its surface exactly, is a hit at distance 0.
 /// - Else the distance is right up to `error`, in metres along the ray: rounding of f64, some 1e-14 of the distance
 ///   from the shape and of its size, over the cosine to the normal. For a hull that includes four times the distance of
 ///   its faces from its vertices ([`planarity_error`](asunder_geometry::Hull::planarity_error)); and if its outer
 ///   radius is more than four times its inner radius, all of that is multiplied by a quarter of their ratio.
-/// - By as much, before it is divided by the cosine, a ray may have gone into a shape that it is said to miss, or may
-///   pass beside one that it is said to hit. A thin shape (segment, triangle, flat hull) is hit by a ray that passes
-///   within rounding.
-/// - In a compound it meets the nearest part, but a part that it starts inside of comes before any other.
-/// - On ground it meets the nearest triangle, but one that it starts on comes before any other; of equals, the lowest
-///   number. No ray slips through between two triangles that share an edge or a vertex. One-sided triangles are passed
-///   through from behind.
+/// - By as much, before it is divided by the cosine, a ray that is reported as a miss may have entered the shape, and
+///   one that is reported as a hit may pass beside it. A thin shape (segment, triangle, flat hull) is hit by a ray that
+///   passes within rounding.
+/// - In a compound it meets the nearest part, but a part inside which it starts comes before any other.
+/// - On ground it meets the nearest triangle, but one on which it starts comes before any other; of equals, the one
+///   with the lowest number. No ray slips through between two triangles that share an edge or a vertex. From behind, it
+///   passes through one-sided triangles.
 ///
 /// Cost: a closed form for spheres, capsules, cuboids, half-spaces and triangles; two dot products a face for hulls; a
 /// few distances, about a microsecond, for rounded shapes, for segments and flat hulls, and beside the faces of hulls
