@@ -422,8 +422,8 @@ pub struct Manifold3 {
     ///
     /// Of more than four corners, four are chosen: one is as deep as any, within 2^-15 of the smaller bounding
     /// diameter, and their area is at least 95 % of the largest that any four have, if those include such a corner too.
-    /// The choice is the same from frame to frame for as long as the corners keep their features, unless two corners
-    /// have each other's.
+    /// The choice is the same from frame to frame for as long as the corners keep their features, barring a
+    /// coincidence.
     ///
     /// A point between two faces is named after a vertex (else an edge) of each face that lies within 2^-9 of the
     /// smaller bounding diameter of it; where none does, after what it lies on.
