@@ -1,5 +1,5 @@
-//! What a body stands on, leans against or is stuck in: what [`next_impact_beside`](Pair3::next_impact_beside) passes
-//! over.
+//! What a body stands on, leans against or is stuck in, as [`next_impact_beside`](Pair3::next_impact_beside) takes it:
+//! that passes over what is flush with these.
 
 use crate::answer::{Manifold2, Manifold3};
 use crate::lists::{with_manifolds2, with_manifolds3};

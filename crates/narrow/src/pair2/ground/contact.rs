@@ -9,8 +9,8 @@
 //!     it is a neighbour's, beyond a sharp corner: take nothing, unless no other point touches
 //!   one manifold for each normal                                                                  (patches)
 //! ```
-//! Testing a run in place of its segments keeps points and their names as a body slides. The segments, which lie on
-//! their run up to rounding, are only tested for overlap, exactly, and only where the run leaves that open.
+//! Testing a run in place of its segments keeps points and their feature ids as a body slides. The segments, which lie
+//! on their run up to rounding, are only tested for overlap, exactly, and only where the run leaves that open.
 
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
