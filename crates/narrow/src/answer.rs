@@ -423,8 +423,9 @@ pub struct Manifold3 {
     /// Where they touch. Never empty.
     ///
     /// Of more than four corners, four are chosen: one counts as deepest, within 2^-15 of the smaller bounding
-    /// diameter, and their area is at least 95 % of the largest of any four that include such a corner. The choice is
-    /// the same from frame to frame for as long as the corners keep their features, unless two corners swap theirs.
+    /// diameter, and their area is at least 95 % of the largest that any four have, if those include such a corner too.
+    /// The choice is the same from frame to frame for as long as the corners keep their features, barring a
+    /// coincidence.
     ///
     /// A point between two faces gets its id from a vertex (else an edge) of each face within 2^-9 of the smaller
     /// bounding diameter of it; if there is none, from the feature on which it lies.

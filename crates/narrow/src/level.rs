@@ -183,8 +183,8 @@ impl<V: Axis> Passing<'_, V> {
     }
 }
 
-/// A convex part's thickness from its middle, in metres: the least of the heights of its core's planes above its
-/// middle, and the radius around the core; but at least a small share of its outer radius.
+/// A convex part's thickness from its middle, in metres: the least height of its core's planes above its middle, plus
+/// the radius around the core; but at least a small share of its outer radius.
 pub(crate) fn thickness(heights: impl Iterator<Item = f64>, radius: f32, outer: f32) -> f64 {
     let inner = heights.fold(f64::INFINITY, f64::min);
     let inner = if inner.is_finite() { inner.max(0.0) } else { 0.0 };

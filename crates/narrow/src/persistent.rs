@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! drift = the furthest that any point of one body has moved, seen from the other, since the manifold was computed
-//! the projections of either body, so the separation along any axis, change by no more than the drift
-//!     so the true separation does
+//! every projection of either body, and so the separation along any axis, changes by no more than the drift
+//!     and so does the true separation
 //!     so overlap, and being within the margin, are as they were while drift < the distance to either limit
 //! the points stay where they are on one body, above the face of the other that they are measured from:
 //!     their own separations are measured again, and the normal turns with the body that sees the lesser drift

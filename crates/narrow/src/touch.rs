@@ -1,5 +1,5 @@
-//! Touches: what a body stands on, leans against or is stuck in, and [`next_impact_beside`](Pair3::next_impact_beside)
-//! passes over.
+//! Touches: what a body stands on, leans against or is stuck in. [`next_impact_beside`](Pair3::next_impact_beside) takes
+//! them, and passes over what is flush with them.
 
 use crate::answer::{Manifold2, Manifold3};
 use crate::lists::{with_manifolds2, with_manifolds3};

@@ -3,9 +3,10 @@
 //! ```text
 //! d = unit direction from the ground to the body
 //! d along the run's normal:                    its face is touched
-//! d leans past an end, without a neighbour:    a loose end is touched
-//!     and is not towards the neighbour:        the corner is touched, on its outer side               (Voronoi region)
-//!     and is towards the neighbour:            the neighbour is touched, not this run
+//! d leans past an end without a neighbour:     a loose end is touched
+//! d leans past an end with a neighbour,
+//!     and not towards that:                    the corner is touched, on its outer side               (Voronoi region)
+//!     and towards that:                        the neighbour is touched, not this run
 //!         a sharp corner, or the body is in front of one run and behind the other:
 //!                                              this run adds nothing
 //!         a blunt or a concave corner:         the run's normal takes the place of d

@@ -155,7 +155,7 @@ impl Pair3<'_> {
             return Err(round_down(gap));
         }
         let mut least = Least::within(limit);
-        // The bound for triangles with no box within the limit.
+        // The bound for triangles whose boxes are beyond the limit.
         least.give_up(round_down(limit));
         let bases = on.in_order([on.body_basis, on.basis]);
         let mut look = |part: &Part| self.look_around(on, &bases, (part, wanted), &mut least);

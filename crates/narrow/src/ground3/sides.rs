@@ -98,7 +98,8 @@ impl OnGround<'_> {
             // Prefers the triangle itself, where others are no nearer.
             let nearness =
                 one.facing.dot(touched.away) + if one.number == touched.triangle { SAME_NORMAL } else { 0.0 };
-            // On two-sided ground, which nothing passes through, the nearest decides alone what is level.
+            // On two-sided ground, which nothing passes through, the motion does not count: the nearest tells what is
+            // level.
             let is_met = !self.ground.is_one_sided() || !touched.is_left(one.facing);
             let rank = (is_met, is_free(&around, touched.point, one.facing), nearness);
             if best.is_none_or(|(known, _)| rank > known) {

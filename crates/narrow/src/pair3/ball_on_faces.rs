@@ -24,7 +24,7 @@ pub(super) struct BallOnFaces<'p> {
     pub(super) precision: Precision,
 }
 
-/// The nearest place of a core to a point, in the core's axes.
+/// The place of a core that is nearest to a point, in the core's axes.
 #[derive(Clone, Copy)]
 pub(super) struct Nearest {
     pub(super) foot: DVec3,

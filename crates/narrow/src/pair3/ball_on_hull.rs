@@ -243,7 +243,7 @@ impl Walk<'_> {
         let (normal, mut most, mut side) = (self.normals[face], 0.0, None);
         for half_edge in self.solid.topology.face_half_edges(face) {
             let (from, along) = self.edge(half_edge);
-            // Not divided by lengths: comparing signed squares gives the same order.
+            // The signed square of the distance: it gives the same order, without a root.
             let out = along.cross(normal).dot(self.point - from);
             let beyond = out * out.abs() / along.length_squared();
             if beyond > most {

@@ -32,7 +32,7 @@ impl Pair3<'_> {
     }
 }
 
-/// The nearest place of a triangle to a point; `None` if that is not proved.
+/// The place of a triangle that is nearest to a point; `None` if that is not proved.
 #[inline]
 fn nearest_on_triangle(triangle: &Triangle3, point: DVec3, precision: &Precision) -> Option<Nearest> {
     let corners = triangle.vertices().map(|corner| corner.as_dvec3());

@@ -1,8 +1,8 @@
 //! The manifolds of a body on ground, moved along.
 //!
-//! A body at rest on ground costs several times what one on a box costs to answer anew: triangles are found, read and
-//! tested. But ground does not move, and neither do its normals: while the body slides a little, each point stays where
-//! the same two features meet, and rises as they do.
+//! To answer anew for a body at rest on ground costs several times as much as for one on a box: triangles are found,
+//! read and tested. But ground does not move, and neither do its normals: while the body slides a little, each point
+//! stays where the same two features meet, and rises as they do.
 //!
 //! ```text
 //! t   how far the body's position moved; R how it turned; u = t + (R - 1) a, how its matter at a point a moved

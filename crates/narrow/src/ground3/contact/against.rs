@@ -68,8 +68,8 @@ impl Prism<'_> {
         let Some(stretch) = self.stretch(incident.face, outwards, (from, along)) else {
             return Against::Unknown;
         };
-        // An edge that counts as level may rise a little. Where its upper end is cut off, another edge of the face may
-        // be nearer across a gap, by no more than the rise that was cut off.
+        // An edge that counts as level may rise a little. Where its upper end is cut off, another edge of the triangle
+        // may pass under the face nearer to it, across a gap, by no more than the rise that was cut off.
         let [(begin, _), (end, _)] = stretch.ends;
         let nearest = separation(begin).min(separation(end));
         let is_little = nearest - least <= MOST_CUT_OFF * standing.slack;

@@ -25,8 +25,8 @@ const MOST_BEHIND: usize = 64;
 
 pub(super) type AllBehind = ArrayVec<NearTriangle, MOST_BEHIND>;
 
-/// Greatest cosine between the triangle's normal and the one that hides it: ground before the triangle is then not
-/// above what is under the part.
+/// Greatest cosine between the triangle's normal and the one that hides it: what is in front of the triangle is then
+/// not above what is under the part.
 const ASIDE: f64 = 0.125;
 
 impl PartTest<'_> {

@@ -1,5 +1,5 @@
-//! A cuboid and a triangle across a gap: their closest points in closed form, for triangles along which ground rejects
-//! the direction.
+//! A cuboid and a triangle across a gap: their closest points in closed form, where ground rejects the direction from
+//! one to the other.
 //!
 //! ```text
 //! in the cuboid's axes, for each edge of the triangle: the point nearest to the cuboid                    (nearest_on)

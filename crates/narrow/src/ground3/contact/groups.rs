@@ -50,14 +50,14 @@ pub(super) struct Base {
     pub(super) behind: f64,
 }
 
-/// Nothing reported yet.
+/// Nothing recorded yet.
 const NOTHING_RECORDED: [f64; 2] = [f64::INFINITY, 0.0];
 
 /// A normal and its points.
 pub(super) struct Group {
     pub(super) base: Base,
     pub(super) pins: ArrayVec<Pin, MOST_POINTS>,
-    /// The least separation reported for it so far, including points that were dropped since, and its error bound.
+    /// The least separation recorded for it so far, including points that were dropped since, and its error bound.
     pub(super) recorded: [f64; 2],
     /// By how much the true separation may be less because of low bends, as far as noted, in metres.
     pub(super) hidden: f64,

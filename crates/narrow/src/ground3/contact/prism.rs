@@ -139,8 +139,8 @@ impl Prism<'_> {
         }
         let aside = outwards - facet.normal * facing;
         let is_tilted = standing.radius > 0.0 && aside.length() * standing.radius > standing.slack;
-        // By how much a rounded edge reaches further than the face's plane where a side passes out from under it. Where
-        // it would be more than the slack, it gets points instead.
+        // By how much a rounded edge reaches further than the face's plane where a side passes out from under it; it
+        // goes into the error. Where the face is tilted, such places get points instead.
         let rounded = if is_tilted { 0.0 } else { standing.radius * (1.0 / -facing - 1.0) };
         let mut is_any = false;
         for edge in (0..3).filter(|&edge| ends[edge]) {

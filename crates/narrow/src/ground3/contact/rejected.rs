@@ -4,7 +4,7 @@
 //! first those whose axis is nearly their normal, then the others: points along their normals, unless they are freed
 //!     any may be freed by a normal that was found before all of them, as the part's lowest vertex shows
 //!     the others also by any normal found by then that is far from theirs, as that vertex, an axis of a cuboid or the
-//!         part's incident face shows; the latter two, across a gap, only if that would be the deepest of all
+//!         part's incident face shows; the latter two, across a gap, only if it would be deeper than all else
 //! ```
 //! A normal *frees* a triangle if moving the part along it, by the depth found along it, separates the part from the
 //! triangle, too. Take a crate over the edge of a step, a millimetre deep in the tread and half a metre beyond the
@@ -36,7 +36,7 @@ pub(super) struct Rejection {
     pub(super) is_own: bool,
     /// Whether there is a gap between the triangle and the part.
     pub(super) is_apart: bool,
-    /// The separation of part and triangle, and its error bound, where all of the triangle is level in the axis.
+    /// The separation of part and triangle, and its error bound, where all of the triangle is level in that direction.
     pub(super) measured: Option<[f64; 2]>,
 }
 
@@ -94,9 +94,9 @@ impl PartTest<'_> {
         let (by_now, deepest) = (known.least_along_each(), known.groups.least().min(0.0));
         self.add_those(false, known, |rejected, known| {
             let is_far = |by: &&LeastAlong| rejected.plane.facet.normal.dot(by.0) < FRAC_1_SQRT_2;
-            // A triangle across a gap is clear of the part before any move, so that it is after one shows nothing: the
-            // floor beside a wall got a contact at one vertex only. Just triangles that would be reported deeper than
-            // all else are left out.
+            // A triangle across a gap is clear of the part before any move, so being clear of it after one shows
+            // nothing: the floor beside a wall got a contact at one vertex only. Left out are just those that would be
+            // reported deeper than all else.
             let may_be_freed = !rejected.rejection.is_apart || self.is_deeper(rejected, deepest);
             let mut far = by_now.iter().filter(is_far);
             is_freed(rejected)

@@ -79,8 +79,8 @@ impl Prism<'_> {
         });
     }
 
-    /// Whether the part may be that deep over a side: with the side moved to that depth, some of it is on the inner
-    /// side of all faces that face down.
+    /// Whether the part's separation over a side may be as little as `reach`: with the side moved by that along the
+    /// normal, some of it is on the inner side of all faces that face down.
     fn may_reach(&self, edge: usize, reach: f64) -> bool {
         let (solid, normal) = (self.standing.solid, self.facet.normal);
         let (from, along) = self.facet.edge(edge);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cheap lower bounds leave open that ground is nearer than the least separation found                     (protrusion)
-//! for each triangle near the part that has such a bound, again:
+//! for each triangle near the part that has a low bend, again:
 //!     its plane, a face of the part, the normals found, or any cheap axis show that it is no nearer: done
 //! the kernels are called for those that are left, in the order of these bounds:
 //!     nearer than all that was found, and along its normal up to a few low bends: its separation is reported

@@ -70,8 +70,8 @@ impl PartTest<'_> {
         prism.does_cross() || self.meeting.overlaps(prism.ground, prism.facet.number)
     }
 
-    /// Whether a triangle has a point in the ball around the part. If it has none, no part of the body behind the
-    /// triangle's plane lies over the triangle where the part's centre is above the plane; otherwise nothing is deep
+    /// Whether a triangle has a point in the ball around the part. If it has none, and the part's centre is above its
+    /// plane, nothing of the part that is behind the plane lies over the triangle; otherwise nothing of it is deep
     /// there.
     pub(super) fn is_in_ball(&self, prism: &Prism) -> bool {
         let Standing { center, outer_radius, .. } = *self.standing;

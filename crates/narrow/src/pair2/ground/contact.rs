@@ -2,14 +2,15 @@
 //!
 //! ```text
 //! for each convex part of the body
-//!   for each straight run of the chain that has a segment near the part, and that the part sees     (Surface)
+//!   for each straight run of the chain that has a segment near the part, and that the part sees        (Surface)
 //!     ask the kernels how the part touches the run, as if the run were one segment
-//!     their normal is that of the run's face, or of a corner: take their points
-//!     it is one that the surface does not have: take what of the part lies over the run        (over_edge)
-//!   one manifold for each normal                                                               (patches)
+//!     their normal is that of a corner of the run: take their points
+//!     it is the run's own, or the surface has none such: take what of the part lies over the run  (over_edge)
+//!     it is a neighbour's, beyond a sharp corner: take nothing, unless no other point touches
+//!   one manifold for each normal                                                                  (patches)
 //! ```
-//! Testing a run in place of its segments keeps points and their names as a body slides. The segments, which lie on
-//! their run up to rounding, are only tested for overlap, exactly, and only where the run leaves that open.
+//! Testing a run in place of its segments keeps points and their feature ids as a body slides. The segments, which lie
+//! on their run up to rounding, are only tested for overlap, exactly, and only where the run leaves that open.
 
 use super::super::{Pair2, Part, Parts, for_parts};
 use super::patches::{Patch, Patches};
@@ -199,8 +200,8 @@ impl Standing<'_> {
 
 /// Whether there is a gap beyond rounding.
 ///
-/// If there is, what lies over the run is either in front of it, or behind it because it came past its end: no contact
-/// of the run.
+/// If there is, what lies over the run is either in front of it, or behind it because it came past its end: the latter
+/// is no contact of the run.
 fn is_apart(near: &Near, run: &Run) -> bool {
     f64::from(near.separation) > f64::from(near.error) + run.unevenness()
 }

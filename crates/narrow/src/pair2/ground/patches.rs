@@ -49,7 +49,7 @@ impl Patch {
         };
         let [part_a, part_b] = place.indices;
         let mut points: ContactPoints<ContactPoint2, 2> = points.iter().map(point).collect();
-        // Where a closed chain comes back to its first vertex, the kernel's order of names is not the chain's.
+        // Where a closed chain comes back to its first vertex, the kernel's order of ids is not the chain's.
         points.sort_unstable_by_key(|point| point.feature);
         let uneven = (run.unevenness() as f32).next_up();
         Some(Self(Manifold2 {

@@ -1,5 +1,5 @@
-//! Contact points of two sharp cuboids that overlap, and what those in a gap share with them (`super::gap`). The rules
-//! are those of `super::super::manifold`.
+//! Contact points of two sharp cuboids that overlap, and what contacts across a gap (`super::gap`) share with them. The
+//! rules are those of `super::super::manifold`.
 
 use super::super::sat::AxisOf;
 use super::names::{self, Names};

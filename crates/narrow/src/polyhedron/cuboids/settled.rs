@@ -194,7 +194,7 @@ impl Placed {
         matter
     }
 
-    /// Takes the best of some edge pairs if it beats the best face. Raises `short` by what the pairs leave open.
+    /// Takes the best of some edge pairs if it beats the best face. Raises `short` to what the pairs leave open.
     #[inline(never)]
     fn look_at_edges(&self, matter: u32, slack: f64, best: &mut Best) {
         let (doubt, face) = (self.closed_form(), best.of_faces());
