@@ -18,6 +18,7 @@ mod ridges;
 mod rims;
 mod shapes;
 mod skins;
+mod slopes;
 mod stale;
 mod turned;
 mod wheels;

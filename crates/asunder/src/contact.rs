@@ -36,8 +36,11 @@ pub struct Contact<'a, K, M> {
     /// Whether their `Began` is among this update's events.
     pub is_new: bool,
     /// Whether the bodies are further apart than their margins, and listed only because their motions may bring them
-    /// together. Such a pair does not count as touching, and has no `Began`, until it overlaps. A solver that lets no
-    /// point close by more than its separation prevents tunnelling.
+    /// together. Such a pair does not count as touching, and has no `Began`, until it overlaps.
+    ///
+    /// A solver that lets no point close by more than its separation prevents tunnelling of bodies that do not turn,
+    /// except through ground: there manifolds are with the ground that the body faces now, and a slope that begins
+    /// further along the same floor has none (guide: levels).
     pub speculative: bool,
     /// The manifolds: one for each pair of convex parts within the margins; on ground, one for each normal of each
     /// part. Normals point from `a` to `b`.
