@@ -7,14 +7,14 @@
 //! space       the narrow phase's part, in the plane and in space
 //! answer      the answers' types
 //! ```
-//! The methods themselves stand in `ask2.rs` and `ask3.rs`, and those along a way beside them, in plain types.
+//! The methods themselves are in `ask2.rs` and `ask3.rs`, those along a path in an `along.rs` each, in plain types.
 //!
 //! # Why answers depend on the bodies alone
-//! Trees are made when somebody asks, by any thread, and boxes of the last update may be larger than they need be.
-//! So a box from a tree only says who is looked at. What decides is the box around the shape as it stands, made on
-//! the spot: a body is in an answer only if that box is, and is told to be no nearer than that box. Then a body
-//! that is passed over because its box in the tree is further than what was found would have been told to be
-//! further, too; and the order in which bodies are looked at does not matter, since equal distances go by slot.
+//! Trees are built by the first query that needs them, on any thread, and boxes of the last update may be larger than
+//! necessary. So a box from a tree only selects a body for the test. What decides is the box around the shape as it
+//! stands, made on the spot: a body is an answer only if that box is, and is reported no nearer than that box. So a
+//! body that is skipped, as its box in the tree is further than what was found, would have been reported further, too;
+//! and the order in which bodies are tested does not matter, since equal distances go by slot.
 
 mod answer;
 mod filter;
