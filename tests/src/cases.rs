@@ -75,7 +75,7 @@ impl Random {
         list[self.below(list.len())]
     }
 
-    /// Uniform in the unit cube's eight octants.
+    /// Uniform in the cube from -1 to 1.
     pub fn vector(&mut self) -> DVec3 {
         DVec3::new(self.signed(), self.signed(), self.signed())
     }

@@ -14,7 +14,7 @@ pub trait Played: Engine {
     fn insert_many(world: &mut World<Self>, bodies: Vec<Collider<Self>>) -> Vec<Self::Key>;
     /// `World::set_poses`; returns whether all keys were fresh.
     fn set_poses(world: &mut World<Self>, poses: Vec<(Self::Key, Self::Pose)>) -> bool;
-    /// A pose moved and rotated by at most `by`, in metres and radians.
+    /// A pose moved along each axis and rotated about each by at most `by`, in metres and radians.
     fn nudged(pose: &Self::Pose, random: &mut Random, by: f64) -> Self::Pose;
     /// An unrotated pose on a grid of half metres within `reach` of the origin on each axis.
     fn on_grid(random: &mut Random, reach: f64) -> Self::Pose;

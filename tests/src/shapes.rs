@@ -64,7 +64,7 @@ pub const KINDS3: [Kind<Shape3>; 12] = [
         let count = 1 + clay.random.below(3);
         let parts: Vec<_> = (0..count)
             .map(|_| {
-                // The rows before this one, except the compound itself.
+                // A row before this one.
                 let shape = KINDS3[clay.random.below(10)].1(clay);
                 let at = clay.point().as_dvec3();
                 (Pose3::new(at, clay.quaternion()).unwrap(), shape)

@@ -111,7 +111,7 @@ pub(crate) fn other_of<K: PartialEq>((a, b): (K, K), body: K) -> Option<K> {
     }
 }
 
-// Not derived: a contact only looks at its manifolds, which are no copies themselves.
+// Not derived: that would require manifolds that are `Copy`, but a contact only borrows them.
 impl<K: Copy, M> Clone for Contact<'_, K, M> {
     fn clone(&self) -> Self {
         *self

@@ -74,7 +74,7 @@ asunder_geometry::copied!(CoherentSweep<B>, for [B: Bounds], { sweep, rest, is_k
 /// If more than one box in this many moves, all are swept.
 pub(crate) const FEW: usize = 5;
 
-/// Looking up this many movers costs about as much as a sweep of all does per box.
+/// Looking up one mover costs about as much as a sweep of all does for this many boxes.
 const IDLE_A_BOX: usize = 2;
 
 /// Pairs that the filter is asked about at a time.

@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 ///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length has no meaning. The body's pose
 /// puts it in place. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other
-/// shape. Two of them overlap unless they face exactly away from each other, and have no contact points.
+/// shape. Two of them always overlap, without contact points, unless their normals are exactly opposite.
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Unless its normal is along an axis, its box
@@ -89,7 +89,7 @@ impl HalfPlane {
 ///
 /// It is the set of all x with n.x <= 0 for the stored outward normal n, whose length has no meaning. The body's pose
 /// puts it in place. It has no centre, no size and no mass; tolerances of a pair with it are relative to the other
-/// shape. Two of them overlap unless they face exactly away from each other, and have no contact points.
+/// shape. Two of them always overlap, without contact points, unless their normals are exactly opposite.
 ///
 /// # Costs and limits
 /// The cheapest floor: one dot product for each vertex of the other shape. Unless its normal is along an axis, its box

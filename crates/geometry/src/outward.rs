@@ -6,8 +6,8 @@ use crate::pose2::Pose2;
 use crate::pose3::Pose3;
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
-/// The largest f32 that is not above `value`, for lower bounds. NaN stays NaN, and finite numbers beyond f32 become its
-/// greatest.
+/// The largest f32 that is not above `value`, for lower bounds. NaN stays NaN, and a finite number above all f32
+/// becomes the greatest of them.
 ///
 /// ```
 /// use asunder_geometry::round_down;

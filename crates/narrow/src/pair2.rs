@@ -28,7 +28,7 @@ use part::{Part, for_parts, for_parts_in, for_parts_near};
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
 /// | half-plane, anything | its line's normal alone: one dot product a vertex | lowest vertex | lowest vertex and its neighbour |
-/// | half-plane, half-plane | lines that face exactly away from each other; else their overlap is unbounded | half way | one, or none |
+/// | half-plane, half-plane | lines, if their normals are exactly opposite; else their overlap is unbounded | half way | one, or none |
 /// | circle, circle | the line through both centres | the same | one |
 /// | rectangle, polygon, capsule, segment, circle, with each other | edge normals | GJK | clipped edges |
 /// | compound, anything | the least of its parts' | the same | a manifold for each pair of parts |
@@ -186,7 +186,7 @@ impl<'a> Pair2<'a> {
     ///
     /// - Beyond the limit it may stop at any axis along which the shapes are that far apart, with
     ///   [`Separation2::AtLeast`]. A NaN counts as no limit, and a negative limit as zero.
-    /// - Two half-planes have separation -inf unless they face exactly away from each other.
+    /// - Two half-planes have separation -inf unless their normals are exactly opposite.
     ///
     /// Cost:
     /// - Polygons of up to 16 vertices: the product of the vertex counts.

@@ -37,7 +37,7 @@ pub(crate) use parts::Parts;
 /// | | separation | closest points in a gap | contact points |
 /// |---|---|---|---|
 /// | half-space, anything | its plane's normal alone: one dot product a vertex | lowest vertex | face that faces the plane |
-/// | half-space, half-space | planes that face exactly away from each other; else their overlap is unbounded | half way | one, or none |
+/// | half-space, half-space | planes, if their normals are exactly opposite; else their overlap is unbounded | half way | one, or none |
 /// | sphere, capsule, segment among themselves | closest points of segments, in closed form | the same | one, or two where they lie side by side |
 /// | sphere, cuboid | the centre clamped to the cuboid; inside, its nearest face | the same | one |
 /// | cuboid, cuboid | 15 axes, projections in closed form | GJK | clipped faces, crossing edges, or edges side by side |
@@ -197,7 +197,7 @@ impl<'a> Pair3<'a> {
     ///
     /// - Beyond the limit it may stop at any axis along which the shapes are that far apart, with
     ///   [`Separation3::AtLeast`]. A NaN counts as no limit, and a negative limit as zero.
-    /// - Two half-spaces have separation -inf unless they face exactly away from each other.
+    /// - Two half-spaces have separation -inf unless their normals are exactly opposite.
     /// - For ground it is the least of all triangles' separations. In overlap it is the depth in the deepest single
     ///   triangle, from whichever side is nearer: to push a body out, use [`manifolds`](Self::manifolds), which take
     ///   the surrounding ground into account.

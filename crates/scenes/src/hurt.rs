@@ -113,8 +113,8 @@ fn needle(place: usize, length: f64, count: f64, random: &mut Random) -> Aabb3 {
     around(random.within(DVec3::splat(-0.5), DVec3::splat(0.5)), half)
 }
 
-/// A cube of one of so many clouds, each narrower than the last by the given ratio. Of two of a cloud, one in a million
-/// a billionth of the cloud overlaps.
+/// A cube of one of so many clouds, each narrower than the last by the given ratio. Two cubes of a cloud of n overlap
+/// with a probability of about one in n.
 fn shrinking(place: usize, (clouds, ratio): (usize, f64), count: f64, random: &mut Random) -> Aabb3 {
     let scale = (0..place % clouds).fold(1.0, |scale, _| scale * ratio);
     let half = 0.5 * libm::cbrt(clouds as f64 / count);

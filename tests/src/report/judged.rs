@@ -146,7 +146,7 @@ pub fn judge<P: Posed>(pair: &P, question: Question) -> Judged {
     judged
 }
 
-/// A wide gap is a larger number than the size, and is rounded to f32.
+/// A wide gap is a larger number than the size, and an f32 rounds it relative to itself.
 fn measure(size: f64, truth: Option<Truth>) -> f64 {
     let gap = truth.map(|truth| truth.separation.abs()).filter(|gap| gap.is_finite()).unwrap_or(0.0);
     size.max(gap).max(f64::MIN_POSITIVE)

@@ -68,7 +68,7 @@ impl World<Plane> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                // With a negative length, the arrow of an unbounded shape points out of it.
+                // With a negative length, the arrow of an unbounded shape leads out of its box.
                 let is_endless = shape.outer_radius().is_infinite();
                 if region.is_none_or(|region| is_endless || shape.bounds(pose, 0.0).overlaps(region)) {
                     outline(shape, pose, options, &mut |from, to| line(from, to, what));

@@ -76,7 +76,7 @@ impl World<Volume> {
         if options.shapes {
             for (_, body) in self.iter().filter(|(_, body)| body.is_enabled()) {
                 let (shape, pose, what) = (body.shape(), body.pose(), DebugLine::of(body));
-                // With a negative length, the arrow of an unbounded shape points out of it.
+                // With a negative length, the arrow of an unbounded shape leads out of its box.
                 let is_endless = shape.outer_radius().is_infinite();
                 // An unbounded region is cut to the body's box: infinities turned into its axes would be NaN.
                 let there = region.map(|region| shape.bounds(pose, 0.0).intersection(region));

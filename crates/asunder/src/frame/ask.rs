@@ -164,7 +164,7 @@ impl<S: Space> Asker<'_, S> {
             let Way::Open = way else { continue };
             let Candidate { pair, keys, hint, persistent, .. } = *candidate;
             let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) else { continue };
-            // A body with a motion counts as changed, so none of its pairs is carried over: all of them come by here.
+            // A body with a motion counts as changed, so none of its pairs is carried over: all of them get here.
             if (a.bullet || b.bullet) && self.is_going(pair) {
                 let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
                 bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));

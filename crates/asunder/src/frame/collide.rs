@@ -123,7 +123,7 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
         if settled[chunk].goes_on(pairs, is_moved) {
             settled[chunk].keep_quiet();
             core::mem::swap(&mut candidates.parts().1[chunk], &mut last_candidates.parts().1[chunk]);
-            // Who walks last update's candidates may come by.
+            // The walks of other chunks through last update's candidates may pass here.
             last_candidates.parts().1[chunk].clear();
             core::mem::swap(&mut records.parts().1[chunk], &mut last_records.parts().1[chunk]);
             core::mem::swap(&mut answered[chunk], &mut last_answered[chunk]);

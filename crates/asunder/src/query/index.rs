@@ -6,8 +6,8 @@
 //! recent   a list of those that changed since that one was made
 //! ```
 //! A body counts in the last of the three that contains it. Trees are built by the first query that needs them, behind
-//! `&World`, and not at all in a world that is never queried. When the list has grown too long, it is dropped together
-//! with the second tree; when too many boxes have changed, both trees are.
+//! `&World`, and not at all in a world that is never queried. When the list has grown too long, the second tree is
+//! dropped, and the next one takes in the list; when too many boxes have changed, both trees are dropped.
 //!
 //! 1. Two trees instead of one and a list: where a twentieth of all bodies moves every frame, every query would have to
 //!    scan a list of them, or a tree of all would have to be rebuilt every frame.

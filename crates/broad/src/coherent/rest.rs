@@ -44,7 +44,7 @@ asunder_geometry::copied!(Rest<B>, for [B: Bounds], { states, longest, far, pack
 /// Lengths in bins that are counted one by one.
 const BINS: usize = 32;
 
-/// At most one box of this many is looked up in the index.
+/// Up to one box in this many goes into the index, besides those too long to be counted by their length.
 const FAR: usize = 256;
 
 /// Most candidates of movers in the columns, per box: about what a sweep of all takes where columns are of no use.

@@ -5,7 +5,7 @@
 //! many boxes:  groups of equally many bins have been counted, each small enough for a near cache:
 //!              each entry goes into its group, in the order of the input
 //!              in each group, count the entries of every bin, then put each into its bin
-//! at the end:  boxes that reach more than two columns, each entry into its bin
+//! at the end:  boxes that reach more than two columns: all entries but the first, each into its bin
 //! ```
 //! Boxes come in any order. Where many are spread over much memory, each entry costs a cache and a TLB miss, and so
 //! does the counter of its bin. Groups are few enough for one cache line of each to stay near. Both ways are stable,
@@ -95,7 +95,7 @@ impl Columns {
         }
     }
 
-    /// The entries of boxes in one or two columns, straight into their bins.
+    /// The first entry of every box, and the second of those in two columns, straight into their bins.
     #[inline(always)]
     fn scatter_each(&mut self, grid: &Grid, first: u32) {
         let Self { records, straddlers, ends, entries, .. } = self;
@@ -150,8 +150,7 @@ fn add_up(counts: &mut [u32], start: u32) {
     }
 }
 
-/// Hands over the entries of boxes in one or two columns, each with its cell: first those of the columns in which they
-/// begin.
+/// Hands over the first entry of every box, then the second of those in two columns, each with its cell.
 #[inline(always)]
 fn for_entries(
     records: &[Entry],

@@ -97,7 +97,7 @@ impl Chain {
 
     /// A polyline that leads from its last vertex back to its first, in metres.
     ///
-    /// The first vertex need not be repeated: a last one that equals it is dropped, and counted.
+    /// The first vertex need not be repeated: a last one that equals it, or nearly, is dropped, and counted.
     ///
     /// # Errors
     /// As [`Chain::open`], and fewer than three vertices.

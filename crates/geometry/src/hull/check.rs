@@ -134,8 +134,8 @@ pub(super) struct Examiner<'a> {
     hull: &'a Hull,
     topology: &'a Topology,
     vertices: Vec<DVec3>,
-    /// The loops, each starting at its first corner in the order of a `Cloud`. The builder
-    /// computes areas from there, and for a needle no wider than rounding the start may change the result.
+    /// The loops, each starting at its first corner in the order of a `Cloud`. The builder computes areas from there,
+    /// and for a needle no wider than rounding the start may change the result.
     faces: Vec<Vec<usize>>,
     /// The rounding error of f64 on numbers of the hull's size, in metres.
     slack: f64,

@@ -108,8 +108,8 @@ impl Surface<'_> {
         self.triangles().map(|corners| to_triangle(p, corners)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The greatest of these bounds over many points. For a point that is nearer to any triangle than the furthest
-    /// point so far, the nearest triangle need not be found.
+    /// The greatest of these bounds over many points. For a point that is no further from some triangle than the
+    /// greatest bound so far, the nearest triangle need not be found.
     pub(super) fn furthest_outside(&self, points: impl Iterator<Item = DVec3>) -> f64 {
         let (mut most, mut near) = (0.0, self.near());
         for p in points {

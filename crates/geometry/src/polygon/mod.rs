@@ -283,8 +283,8 @@ impl Polygon {
         self.data.error
     }
 
-    /// Adds to the error for points that lie up to so far, in metres, outside of those it was made from. Only for a
-    /// polygon whose data are not shared.
+    /// Raises the error to at least this, in metres, for points that were left out before. Only for a polygon whose
+    /// data are not shared.
     pub(crate) fn left_out(mut self, error: f64) -> Self {
         if let Some(data) = Arc::get_mut(&mut self.data) {
             data.error = data.error.max(round_up(error));

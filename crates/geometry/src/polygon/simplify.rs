@@ -45,7 +45,7 @@ impl Ring<'_> {
     /// At most `limit` vertices in order round the ring, with caps as low as bisection finds.
     fn chosen(&self, limit: usize) -> Vec<usize> {
         let size = (1..self.hull.len()).map(|i| self.at(i).distance(self.at(0))).fold(0.0, f64::max);
-        // Twice the diameter covers any cap. Bit patterns of positive numbers have their order.
+        // Twice the size is at least the diameter. Bit patterns of positive numbers have their order.
         let (mut low, mut high) = ((size * 1e-18).to_bits(), (size * 2.0).to_bits());
         let mut best: Vec<usize> = Vec::new();
         while high - low > CLOSE_ENOUGH {

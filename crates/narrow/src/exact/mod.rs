@@ -46,7 +46,7 @@ pub(crate) fn overlaps3(sites: [&Site3; 2], start: &[Corner]) -> bool {
     frame3::question(sites, [&cores[0], &cores[1]]).answer(start)
 }
 
-/// Whether two half-spaces face exactly away from each other, so that a finite translation separates them.
+/// Whether two half-spaces have exactly opposite normals, so that a finite translation separates them.
 pub(crate) fn are_opposed3(sites: [&Site3; 2]) -> bool {
     let cores = sites.map(|site| site.shape.core());
     frame3::question(sites, [&cores[0], &cores[1]]).are_opposed()

@@ -112,7 +112,7 @@ impl Question<'_> {
     /// Whether the shapes share a point.
     pub(super) fn answer(&self, start: &[Corner]) -> bool {
         match (&self.a, &self.b) {
-            // Two half-spaces overlap, unless they face exactly away from each other across a gap.
+            // Two half-spaces overlap, unless their normals are exactly opposite, across a gap.
             (Body::HalfSpace(normal), Body::HalfSpace(_)) => {
                 !(self.are_opposed() && dot3(normal, &self.offset).sign() == Ordering::Greater)
             }
@@ -126,7 +126,7 @@ impl Question<'_> {
         }
     }
 
-    /// Whether both are half-spaces that face exactly away from each other.
+    /// Whether both are half-spaces with exactly opposite normals.
     pub(super) fn are_opposed(&self) -> bool {
         let (Body::HalfSpace(normal_a), Body::HalfSpace(normal_b)) = (&self.a, &self.b) else { return false };
         cross3(normal_a, normal_b).iter().all(Int::is_zero)

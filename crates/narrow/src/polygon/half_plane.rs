@@ -39,7 +39,7 @@ impl Line {
         (vertex, self.height(core.point(vertex)))
     }
 
-    /// Two half-planes: the distance of their lines if they face exactly away from each other; else they overlap
+    /// Two half-planes: the distance of their lines if their normals are exactly opposite; else they overlap
     /// without end. The exact test is made only where f64 leaves it open.
     pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
         let may_be =

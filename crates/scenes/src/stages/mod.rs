@@ -119,7 +119,7 @@ pub struct Feel {
     pub friction: f64,
     /// The share of an impact's speed that is given back, 0 to 1.
     pub restitution: f64,
-    /// About the share of a spin that is lost in a second, to air and rolling resistance.
+    /// The rate at which a spin decays by air and rolling resistance, per second.
     pub spin_damping: f64,
     /// The substeps into which a solver should divide a step of 1/60 s: bodies that stand on thin edges or bear a
     /// hundred others need more. Its cost grows with their number.

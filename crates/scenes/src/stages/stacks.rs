@@ -97,7 +97,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
     let card = cuboid(CARD);
     let (thick, high) = (f64::from(CARD.x), f64::from(CARD.y));
     let (sin, cos) = libm::sincos(LEAN);
-    // A tent is as high as its cards' upper corners; cards that lie end to end have a gap of 2 mm.
+    // A tent is as high as the outer corners of its cards' tops; cards that lie end to end have a gap of 2 mm.
     let (tent, storey) = (2.0 * (high * cos + thick * sin), 2.0 * (high * cos + thick * sin + thick));
     let pitch = 2.0 * high + 0.002;
     for level in 0..storeys {
@@ -105,7 +105,7 @@ pub(super) fn card_house(size: usize) -> Scene3 {
         for i in 0..tents {
             let middle = (i as f64 - 0.5 * (tents as f64 - 1.0)) * pitch;
             for side in [-1.0, 1.0] {
-                // The upper corners of both cards meet over the middle of the tent.
+                // The inner corners of both tops meet over the middle of the tent.
                 let place = DVec3::new(middle + side * (thick * cos + high * sin), floor + 0.5 * tent, 0.0);
                 scene.free(card.clone(), place, Turn::about(DVec3::Z, side * LEAN));
             }

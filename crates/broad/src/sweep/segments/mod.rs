@@ -7,9 +7,9 @@
 //! ```text
 //! given spans, points, and a stretch of the axis that contains all points:
 //!   few spans or few points: compare all, eight at a time                               few
-//!   spans that cover the stretch contain every point: they go on to the next axis with
-//!     the points, twice with roles swapped, as either may have the lower end there; on
-//!     the last axis, sort and sweep both instead
+//!   spans that cover the stretch contain every point: both go on to the next axis, and
+//!     once more with roles swapped, as either may have the lower end there; on the
+//!     last axis, sort and sweep both instead
 //!   cut the points in halves; recurse into each half with the spans that reach it but
 //!     do not cover the whole stretch
 //! ```

@@ -123,7 +123,7 @@ fn ball(radius: f64, towards: DVec2, grid: f64, random: &mut Random) -> (Shape2,
     }
 }
 
-/// Everything, also rounded shapes, on half-planes with tilted normals; and half-planes back to back.
+/// Everything, also rounded shapes, on half-planes with tilted normals; and half-planes with opposite normals.
 pub(super) fn half_plane(level: u32, random: &mut Random) -> Draft2 {
     let gap = gap(level, random);
     let normal = match random.below(4) {
@@ -166,7 +166,7 @@ pub(super) fn compounds(level: u32, random: &mut Random) -> Draft2 {
     Draft2::placed(a, b, at, goal)
 }
 
-/// Two to six cells in a row, a bend or at random, each a square of its own, rotated by quarter turns.
+/// Two to six squares on a grid, rotated by quarter turns: one in the middle, the others at random on or around it.
 fn notched(cell: f64, random: &mut Random) -> Shape2 {
     let parts: Vec<(Pose2, Shape2)> = (0..2 + random.below(5))
         .map(|i| {

@@ -16,7 +16,7 @@ pub(super) const FAR_LEVELS: u32 = 8;
 
 const REACH: [f64; FAR_LEVELS as usize] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// A contact far from the origin. A quarter of those at the last level have a position at the very limit.
+/// A contact far from the origin. At the last level some have a position at the very limit.
 pub(super) fn far(level: u32, random: &mut Random) -> Draft2 {
     let reach = REACH[level.min(FAR_LEVELS - 1) as usize];
     if random.unit() < 0.3 {
@@ -47,7 +47,7 @@ fn moved(draft: Draft2, to: DVec2) -> Draft2 {
     }
 }
 
-/// Rectangles on a grid of 2^-20 m, edge on edge, or a step of position off that.
+/// Rectangles on a grid of 2^-20 m, edge on edge, or up to two steps of position off that.
 fn far_bricks(reach: f64, random: &mut Random) -> Draft2 {
     let grid = libm::exp2(20.0);
     let (a, b) = (on_grid(half_extents(random), grid), on_grid(half_extents(random), grid));

@@ -26,7 +26,7 @@ pub(super) fn deep(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, at + offset)
 }
 
-/// Everything, also rounded shapes, on half-spaces with tilted normals; and half-spaces back to back.
+/// Everything, also rounded shapes, on half-spaces with tilted normals; and half-spaces with opposite normals.
 pub(super) fn half_space(level: u32, random: &mut Random) -> Draft3 {
     let gap = gap(level, random);
     let normal = tilted(random);
@@ -79,7 +79,7 @@ pub(super) fn compounds(level: u32, random: &mut Random) -> Draft3 {
     Draft3::placed(a, b, at, goal)
 }
 
-/// Two to six cells in a row, a bend or at random, each a brick of its own, rotated by quarter turns.
+/// Two to six cubes on a grid, rotated by quarter turns: one in the middle, the others at random on or around it.
 fn notched(cell: f64, random: &mut Random) -> Shape3 {
     let parts: Vec<(Pose3, Shape3)> = (0..2 + random.below(5))
         .map(|i| {

@@ -15,7 +15,7 @@ pub(super) const FAR_LEVELS: u32 = 8;
 
 const REACH: [f64; FAR_LEVELS as usize] = [1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 
-/// A contact far from the origin. A quarter of those at the last level have a position at the very limit.
+/// A contact far from the origin. At the last level some have a position at the very limit.
 pub(super) fn far(level: u32, random: &mut Random) -> Draft3 {
     let reach = REACH[level.min(FAR_LEVELS - 1) as usize];
     if random.unit() < 0.3 {
