@@ -14,6 +14,7 @@ mod peers;
 mod planes;
 mod points;
 mod rays;
+mod recent;
 mod ridges;
 mod rims;
 mod shapes;

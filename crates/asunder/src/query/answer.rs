@@ -139,6 +139,8 @@ pub type NearAnswer3 = NearAnswer<BodyKey3, Vec3, DVec3>;
 pub(crate) trait Ranked {
     /// The distance, and the slot that decides between equals.
     fn rank(&self) -> (f64, u32);
+    /// The part of the body that was met; `None` for answers that name no part.
+    fn part(&self) -> Option<u32>;
     /// Replaces the distance. What was derived from it stays: the change is less than the error.
     fn put_at(&mut self, distance: f64);
 }
@@ -146,6 +148,10 @@ pub(crate) trait Ranked {
 impl<K: Key, N, P> Ranked for RayAnswer<K, N, P> {
     fn rank(&self) -> (f64, u32) {
         (self.distance, slot_of(self.body))
+    }
+
+    fn part(&self) -> Option<u32> {
+        Some(self.part)
     }
 
     fn put_at(&mut self, distance: f64) {
@@ -158,6 +164,10 @@ impl<K: Key, N, P> Ranked for CastAnswer<K, N, P> {
         (self.fraction, slot_of(self.body))
     }
 
+    fn part(&self) -> Option<u32> {
+        Some(self.part)
+    }
+
     fn put_at(&mut self, fraction: f64) {
         self.fraction = fraction;
     }
@@ -166,6 +176,10 @@ impl<K: Key, N, P> Ranked for CastAnswer<K, N, P> {
 impl<K: Key, N, P> Ranked for NearAnswer<K, N, P> {
     fn rank(&self) -> (f64, u32) {
         (self.distance, slot_of(self.body))
+    }
+
+    fn part(&self) -> Option<u32> {
+        Some(self.part)
     }
 
     fn put_at(&mut self, distance: f64) {
@@ -179,6 +193,10 @@ pub(crate) struct Met<K>(pub(crate) K);
 impl<K: Key> Ranked for Met<K> {
     fn rank(&self) -> (f64, u32) {
         (0.0, slot_of(self.0))
+    }
+
+    fn part(&self) -> Option<u32> {
+        None
     }
 
     fn put_at(&mut self, _: f64) {}

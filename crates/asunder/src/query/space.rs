@@ -34,6 +34,9 @@ pub(crate) trait Asked: Space {
     /// A ray.
     type Ray: Copy;
 
+    /// The box around one part of a posed compound, which lies in that of the whole compound; `None` for other shapes.
+    fn part_bounds(shape: &Self::Shape, pose: &Self::Pose, part: u32) -> Option<Self::Aabb>;
+
     /// Visits the slots of all bodies whose boxes are within reach, up to a limit, each with whether its box is in a
     /// tree, until the visitor breaks off. Its definitions are not generic, for the reason of [`Space::advance`].
     fn visit_slots(
@@ -104,6 +107,11 @@ impl Asked for Plane {
         look: &mut Look,
     ) -> ControlFlow<()> {
         visit_slots(world, within, look)
+    }
+
+    fn part_bounds(shape: &Shape2, pose: &Pose2, part: u32) -> Option<Aabb2> {
+        let Shape2::Compound(compound) = shape else { return None };
+        compound.part_bounds(pose, part)
     }
 
     fn point(at: DVec2) -> Option<(Shape2, Pose2)> {
@@ -233,6 +241,11 @@ impl Asked for Volume {
         look: &mut Look,
     ) -> ControlFlow<()> {
         visit_slots(world, within, look)
+    }
+
+    fn part_bounds(shape: &Shape3, pose: &Pose3, part: u32) -> Option<Aabb3> {
+        let Shape3::Compound(compound) = shape else { return None };
+        compound.part_bounds(pose, part)
     }
 
     fn point(at: DVec3) -> Option<(Shape3, Pose3)> {

@@ -122,7 +122,7 @@ pub(crate) struct Question<'q, S: Space, F> {
     pub(super) world: &'q World<S>,
     pub(super) filter: &'q Filter<'q, S>,
     pub(super) reach: Reach<S::Aabb>,
-    /// Makes the box of a body that decides.
+    /// Makes the box around a body by which its answer is decided, except for answers with a compound's part.
     pub(super) bounds_of: fn(&S::Shape, &S::Pose) -> S::Aabb,
     /// Answers beyond it do not count.
     pub(super) limit: f64,
@@ -141,11 +141,27 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
             return None;
         }
         let mut answer = (self.ask)(key, body).filter(|answer| answer.rank().0 <= limit)?;
-        let bound = early.or_else(meets)?;
+        let bound = match answer.part().and_then(|part| S::part_bounds(&body.shape, &body.pose, part)) {
+            Some(of_part) => self.bound_of_compound(body, &of_part, (answer.rank().0, limit))?,
+            None => early.or_else(meets)?,
+        };
         if answer.rank().0 < bound {
             answer.put_at(bound);
         }
         (answer.rank().0 <= limit).then_some(answer)
+    }
+
+    /// The least distance of an answer with a compound: where the compound's own box is met. A larger box would not do,
+    /// since trees store this one or a larger one. It is not computed where the box of the part that was met, which
+    /// lies inside it, is no further than the answer.
+    fn bound_of_compound(
+        &self,
+        body: &Collider<S>,
+        of_part: &S::Aabb,
+        (rank, limit): (f64, f64),
+    ) -> Option<f64> {
+        let met = self.reach.meets(of_part, limit).filter(|&met| met <= rank);
+        met.or_else(|| self.reach.meets(&S::bounds(&body.shape, &body.pose, 0.0), limit))
     }
 
     /// The answer of the least rank.

@@ -84,6 +84,17 @@ impl Part2 {
     pub const fn center(&self) -> DVec2 {
         self.center
     }
+
+    /// The box around the part, where the compound is at this pose.
+    fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
+        let core = self.shape.core();
+        let points = core.vertices().iter().map(|&vertex| self.pose.transform(vertex));
+        // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
+        // part back near the world's origin, where that rounding matters.
+        let lost =
+            64.0 * f64::EPSILON * (self.pose.position().length() + f64::from(self.shape.outer_radius()));
+        around2(points, pose, f64::from(margin) + f64::from(self.shape.radius()) + lost)
+    }
 }
 
 impl Compound2 {
@@ -268,15 +279,7 @@ impl Compound2 {
     /// Cost: linear in the vertices of the parts that reach out furthest; with 16 parts or more a tree skips the
     /// others.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
-        let box_of = |part: &Part2| {
-            let core = part.shape.core();
-            let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
-            // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
-            // part back near the world's origin, where that rounding matters.
-            let lost =
-                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
-            around2(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
-        };
+        let box_of = |part: &Part2| part.bounds(pose, margin);
         let parts = self.parts();
         if parts.len() < MANY_PARTS {
             return parts.iter().map(box_of).fold(Aabb2::NOTHING, |all, part| all.union(&part));
@@ -301,6 +304,23 @@ impl Compound2 {
             [-f64::from(all.min.x), -f64::from(all.min.y), 0.0, all.max.x.into(), all.max.y.into(), 0.0]
         });
         all
+    }
+
+    /// The box around one part of the posed shape, rounded outwards: it lies within [`bounds`](Self::bounds). `None` if
+    /// there is no such part. Cost: linear in the part's vertices.
+    ///
+    /// ```
+    /// use asunder_geometry::{Bounds, Compound2, Pose2, Shape2, Circle, glam::Vec2};
+    /// let ball: Shape2 = Circle::new(0.5)?.into();
+    /// let row = Compound2::new([(Pose2::at(Vec2::ZERO)?, ball.clone()), (Pose2::at(Vec2::X * 2.0)?, ball.clone())])?;
+    /// let second = row.part_bounds(&Pose2::at(Vec2::Y)?, 1).ok_or("there are two")?;
+    /// assert!(second.encloses(&ball.bounds(&Pose2::at(Vec2::X * 2.0 + Vec2::Y)?, 0.0)));
+    /// assert!(row.bounds(&Pose2::at(Vec2::Y)?, 0.0).encloses(&second) && second.min.x > 1.49);
+    /// assert_eq!(row.part_bounds(&Pose2::IDENTITY, 2), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn part_bounds(&self, pose: &Pose2, part: u32) -> Option<Aabb2> {
+        Some(self.parts().get(part as usize)?.bounds(pose, 0.0))
     }
 
     /// A box that contains the posed shape, by its bounding circle alone, and so no smaller than

@@ -84,6 +84,17 @@ impl Part3 {
     pub const fn center(&self) -> DVec3 {
         self.center
     }
+
+    /// The box around the part, where the compound is at this pose.
+    fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
+        let core = self.shape.core();
+        let points = core.vertices().iter().map(|&vertex| self.pose.transform(vertex));
+        // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
+        // part back near the world's origin, where that rounding matters.
+        let lost =
+            64.0 * f64::EPSILON * (self.pose.position().length() + f64::from(self.shape.outer_radius()));
+        around3(points, pose, f64::from(margin) + f64::from(self.shape.radius()) + lost)
+    }
 }
 
 impl Compound3 {
@@ -266,15 +277,7 @@ impl Compound3 {
     /// Cost: linear in the vertices of the parts that reach out furthest; with 16 parts or more a tree skips the
     /// others.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
-        let box_of = |part: &Part3| {
-            let core = part.shape.core();
-            let points = core.vertices().iter().map(|&vertex| part.pose.transform(vertex));
-            // The position of a part far from the compound's origin was rounded accordingly, and the pose may bring the
-            // part back near the world's origin, where that rounding matters.
-            let lost =
-                64.0 * f64::EPSILON * (part.pose.position().length() + f64::from(part.shape.outer_radius()));
-            around3(points, pose, f64::from(margin) + f64::from(part.shape.radius()) + lost)
-        };
+        let box_of = |part: &Part3| part.bounds(pose, margin);
         let parts = self.parts();
         if parts.len() < MANY_PARTS {
             return parts.iter().map(box_of).fold(Aabb3::NOTHING, |all, part| all.union(&part));
@@ -299,6 +302,23 @@ impl Compound3 {
             [x, y, z, u, v, w]
         });
         all
+    }
+
+    /// The box around one part of the posed shape, rounded outwards: it lies within [`bounds`](Self::bounds). `None` if
+    /// there is no such part. Cost: linear in the part's vertices.
+    ///
+    /// ```
+    /// use asunder_geometry::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// let ball: Shape3 = Sphere::new(0.5)?.into();
+    /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball.clone())])?;
+    /// let second = row.part_bounds(&Pose3::at(Vec3::Y)?, 1).ok_or("there are two")?;
+    /// assert!(second.encloses(&ball.bounds(&Pose3::at(Vec3::X * 2.0 + Vec3::Y)?, 0.0)));
+    /// assert!(row.bounds(&Pose3::at(Vec3::Y)?, 0.0).encloses(&second) && second.min.x > 1.49);
+    /// assert_eq!(row.part_bounds(&Pose3::IDENTITY, 2), None);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn part_bounds(&self, pose: &Pose3, part: u32) -> Option<Aabb3> {
+        Some(self.parts().get(part as usize)?.bounds(pose, 0.0))
     }
 
     /// A box that contains the posed shape, by its bounding sphere alone, and so no smaller than
