@@ -57,7 +57,8 @@ use shapes::Saved;
 ///
 /// # Formats
 /// Any binary format for serde keeps all numbers, and so does RON. serde_json does with its feature `float_roundtrip`;
-/// without it [`World::restore`] returns [`SnapshotError::Checksum`].
+/// without it [`World::restore`] returns [`SnapshotError::Checksum`]. JSON has no infinity and no NaN: if a contact hook
+/// leaves one in a manifold, the text cannot be loaded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound = "", deny_unknown_fields)]
 pub struct Snapshot<S: Saved> {

@@ -2,7 +2,9 @@
 
 use super::{ROOM, Stored, act, assert_equal_texts, shown};
 use asunder::glam::Vec3;
-use asunder::{Collider3, Cuboid, Motion3, Pose3, Snapshot3, SnapshotError, Sphere, TriMesh, Volume, World3};
+use asunder::{
+    BodyKey3, Collider3, Cuboid, Motion3, Pose3, Snapshot3, SnapshotError, Sphere, TriMesh, Volume, World3,
+};
 use asunder_tests::cases::Random;
 use asunder_tests::engine::Engine;
 use serde_json::{Value, json};
@@ -322,9 +324,8 @@ fn what_is_kept_has_lengths_that_can_be() {
     refused(grounded, "Grounded", &["arm"], much);
 }
 
-/// Symptom: a made-up list of impacts in another order was restored, and `impacts_of` found nothing in it.
-#[test]
-fn impacts_are_in_order() {
+/// Two bullets, each of which meets a sensor and a ball, and their keys.
+fn met() -> (World3, [BodyKey3; 2]) {
     let mut world = World3::new();
     let ball = Collider3::new(Sphere::new(0.5).unwrap());
     let at = |x: f64, y: f64| Pose3::at([x, y, 0.0]).unwrap();
@@ -337,6 +338,13 @@ fn impacts_are_in_order() {
         world.set_motion(bullet, Motion3::shift([8.0, 0.0, 0.0]).unwrap()).unwrap();
     }
     world.update();
+    (world, bullets)
+}
+
+/// Symptom: a made-up list of impacts in another order was restored, and `impacts_of` found nothing in it.
+#[test]
+fn impacts_are_in_order() {
+    let (world, bullets) = met();
     let whole = serde_json::to_value(world.snapshot()).unwrap();
     let restored = judged(whole.clone()).unwrap();
     assert!(bullets.iter().all(|&bullet| restored.impacts_of(bullet).count() == 2));
@@ -349,4 +357,20 @@ fn impacts_are_in_order() {
     let mut changed = whole;
     changed["content"]["impacts"][0]["bullet"] = json!({"idx": 77_777, "version": 1});
     assert!(judged(changed).is_err_and(|said| said.contains("impacts has a key")));
+}
+
+/// Symptom: a made-up impact was restored and told, whatever its numbers: at 1e300 times the motion, with an endless
+/// normal. Cause: of impacts only the keys and the order were checked.
+#[test]
+fn impacts_have_numbers_that_can_be() {
+    let whole = serde_json::to_value(met().0.snapshot()).unwrap();
+    let places = ["/fraction", "/error", "/normal/0", "/normal/1", "/anchor_a/2", "/anchor_b/0"];
+    for place in places {
+        for number in [1e300, -1e300] {
+            let mut changed = whole.clone();
+            *changed["content"]["impacts"][3]["impact"].pointer_mut(place).unwrap() = json!(number);
+            let said = judged(changed).err().unwrap_or_else(|| panic!("taken, though: {place} {number}"));
+            assert!(said.contains("impact 3 is none"), "{said}");
+        }
+    }
 }

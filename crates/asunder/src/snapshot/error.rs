@@ -64,6 +64,12 @@ pub enum SnapshotError {
         /// The place of its contact in the list.
         index: usize,
     },
+    /// An impact at a fraction outside of its motion, with a number that is not finite, or with a normal that is not of
+    /// unit length.
+    Impact {
+        /// Its place in the list.
+        index: usize,
+    },
     /// The data kept of a pair has a number that is not finite, or a manifold that is invalid as in
     /// [`Manifold`](Self::Manifold).
     Candidate {
@@ -100,6 +106,7 @@ impl core::fmt::Display for SnapshotError {
             Self::Order { list, index } => write!(f, "number {index} of the {list} is out of order"),
             Self::Contact { index } => write!(f, "contact {index} contradicts itself or the candidates"),
             Self::Manifold { index } => write!(f, "contact {index} has a manifold that is none"),
+            Self::Impact { index } => write!(f, "impact {index} has numbers that no impact has"),
             Self::Candidate { index } => write!(f, "candidate {index} keeps what cannot be kept"),
             Self::Checksum { stored, found } => write!(
                 f,

@@ -69,6 +69,9 @@ impl<S: Saved> Judge<'_, S> {
         if let Some(index) = impacts.iter().position(is_stranger) {
             return Err(SnapshotError::Key { list, index });
         }
+        if let Some(index) = impacts.iter().position(|hit| !S::is_real(&hit.impact)) {
+            return Err(SnapshotError::Impact { index });
+        }
         let is_before = |one: &Hit<S::Key, S::Impact>, other: &Hit<S::Key, S::Impact>| {
             let times = [one, other].map(|hit| S::fraction(&hit.impact));
             match slot_of(one.bullet).cmp(&slot_of(other.bullet)) {

@@ -94,6 +94,10 @@ pub trait Saved:
     /// The fraction of the motion at which it happens.
     #[doc(hidden)]
     fn fraction(impact: &Self::Impact) -> f64;
+
+    /// Whether an impact is in its motion, and has finite numbers and a unit normal.
+    #[doc(hidden)]
+    fn is_real(impact: &Self::Impact) -> bool;
 }
 
 /// The shape of a body or of a compound's part.
@@ -299,6 +303,13 @@ impl Saved for Plane {
     fn fraction(impact: &Self::Impact) -> f64 {
         impact.fraction
     }
+
+    fn is_real(impact: &Self::Impact) -> bool {
+        (0.0..=1.0).contains(&impact.fraction)
+            && is_number(0.0, impact.error, impact.normal.as_dvec2().length_squared())
+            && impact.anchor_a.is_finite()
+            && impact.anchor_b.is_finite()
+    }
 }
 
 impl Saved for Volume {
@@ -370,6 +381,13 @@ impl Saved for Volume {
 
     fn fraction(impact: &Self::Impact) -> f64 {
         impact.fraction
+    }
+
+    fn is_real(impact: &Self::Impact) -> bool {
+        (0.0..=1.0).contains(&impact.fraction)
+            && is_number(0.0, impact.error, impact.normal.as_dvec3().length_squared())
+            && impact.anchor_a.is_finite()
+            && impact.anchor_b.is_finite()
     }
 }
 
