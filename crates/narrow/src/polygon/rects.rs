@@ -212,7 +212,7 @@ impl Placed for Corners {
 
     #[inline]
     fn point(&self, vertex: usize) -> DVec2 {
-        // Counter-clockwise from the lowest corner. By table, since a branch on the vertex cannot be predicted.
+        // Counter-clockwise from the lower left. By table, since a branch on the vertex cannot be predicted.
         const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let [x, y] = SIGNS[vertex % 4];
         self.center + (self.halves[0] * x + self.halves[1] * y)

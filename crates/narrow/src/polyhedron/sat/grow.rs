@@ -4,7 +4,7 @@
 //! ```text
 //! start    four points of M = A - B around the origin                                                         (portal)
 //! repeat:  take the facet of the polytope nearest to the origin, with normal m, and the vertex of M furthest along m
-//!          if the facet is near enough to the known depth, or no vertex lies beyond it: done
+//!          if the facet is as far out as the known depth, or no vertex lies beyond it, up to a slack: done
 //!          remove every facet that the vertex is beyond, and connect the rim of the hole to the vertex
 //! ```
 //! van den Bergen, "Proximity queries and penetration depth computation on 3D game objects" (GDC 2001). There the
