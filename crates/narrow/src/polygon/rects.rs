@@ -13,7 +13,7 @@
 //! | trick | gain, rectangles of a broad phase, yes or no |
 //! |---|---|
 //! | closed form in place of eight dot products an axis | 103 ns to 52 |
-//! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
+//! | tested before a pair has been prepared for other kernels | 52 ns to 30 |
 //!
 //! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work).
 //! What was saved are branches that cannot be predicted (which edge, which sign) and stalls: a load of 16 bytes that

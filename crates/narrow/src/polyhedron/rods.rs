@@ -50,7 +50,7 @@ impl Rod {
 }
 
 /// Two contact points of edges that lie side by side across a gap of `distance` between the cores, if some pair does:
-/// one of them as deep as any, and the separation of both at most `within`.
+/// one of them counts as deepest, and the separation of both is at most `within`.
 pub(super) fn side_by_side(
     (a, b): (&Solid, &Solid),
     normal: DVec3,

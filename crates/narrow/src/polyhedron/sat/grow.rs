@@ -79,8 +79,8 @@ struct Surface {
     doubt: f64,
 }
 
-/// How deep solids overlap, up to a slack, if some direction shows `known_depth` (infinite where none is known); `None`
-/// where rounding is in the way, or too many vertices would be needed.
+/// How deep solids overlap, up to a slack, given that some direction shows `known_depth` (infinite where none is
+/// known); `None` where rounding is in the way, or too many vertices would be needed.
 ///
 /// The slack is finite, and more than the rounding of a projection, so that each vertex removes a facet.
 #[inline(never)]
