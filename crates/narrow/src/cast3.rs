@@ -20,7 +20,7 @@
 //! | cast, each by distances and steps | 0.06 | 2.6 | 0.25 | 0.41 |
 //! | each pair by its own means | 0.6 | 2.5 | 2.1 | 1.0 |
 //! | spheres without axes; supports in f32 again wherever the gap is clear, not only at first | 1.1 | 4.0 | 3.4 | 1.1 |
-//! | ray, of unit length, sphere asked first | 0.41 | 0.67 | 0.66 | 4.2 |
+//! | ray, of unit length, sphere tested first | 0.41 | 0.67 | 0.66 | 4.2 |
 //! | as it is given, roots for hits alone | 1.7 | 1.2 | 1.1 | 5.4 |
 
 mod advance;

@@ -1,7 +1,7 @@
 //! The error that is reported with a separation: one place for the whole crate.
 //!
-//! Kernels propose an axis and evaluate it by full projection in f64. The reported number may differ from the truth by
-//! the sum of these, in metres (`docs/accuracy.md` derives each constant):
+//! Kernels propose an axis and evaluate it by full projection in f64. What may separate the reported number from the
+//! truth is, in metres (`docs/accuracy.md` derives each constant):
 //!
 //! 1. *projection*: rounding in f64. Terms are at most `reach`, the sum of all lengths that enter. In space a
 //!    projection is off by less than 44 units of 2^-53 of that, in the plane by less than 10; for parts of compounds,

@@ -37,7 +37,7 @@ pub(crate) fn is_many([parts_a, parts_b]: [usize; 2]) -> bool {
     parts_a * parts_b >= MANY
 }
 
-/// A value between 16, which loses a seventh for hammers of boxes that touch, and 64, which gains a tenth.
+/// Between 16, with a loss of a seventh, and 64, with a gain of a tenth, both for hammers of boxes that touch.
 const MANY: usize = 32;
 
 /// How far a body and its parts reach along a direction, measured from its position.

@@ -341,7 +341,7 @@ impl<'a> Course<'a> {
         Surface::new(chain, run, (&turn, origin), center)
     }
 
-    /// How far apart points of shapes that count as touching may lie and be one place.
+    /// Up to this far apart, points of shapes that count as touching are one place.
     pub(super) fn nearness(&self) -> f64 {
         2.0 * self.enough
     }

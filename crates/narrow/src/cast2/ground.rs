@@ -105,7 +105,7 @@ impl First<'_> {
     }
 
     /// Where a segment of a chain is met first. One-sided ground that is passed may be met later, from its front, once
-    /// the two are apart, for a straight run from all of it.
+    /// the two are apart (from a straight run: from all of it).
     fn met_first(&self, chain: &Chain, pieces: [&Piece; 2], side: usize) -> Option<(Met, Touching)> {
         let mut course = Course::new(self.stretch, pieces, self.end)?;
         loop {

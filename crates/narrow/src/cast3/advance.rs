@@ -48,8 +48,8 @@ const PATIENT: usize = 16;
 /// Chords after which a step is good enough.
 const MAX_CHORDS: usize = 6;
 
-/// Sine of the greatest angle at which an axis between points counts as square to an edge: far more than rounding makes
-/// of it.
+/// Sine of the angle by which an axis between points may be off square to an edge and still be made so: far more than
+/// rounding makes of it.
 const TILTED: f64 = 1e-3;
 
 /// How the motion of two parts ends.

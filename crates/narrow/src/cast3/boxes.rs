@@ -34,8 +34,8 @@ const LANES: usize = 16;
 /// How often a point is moved to the nearest of the other box before `sweep` gives up.
 const MAX_TURNS: usize = 6;
 
-/// Cosine of an angle up to which a direction counts as square to an axis: then faces or edges lie on each other, and
-/// their middles are tried first.
+/// A direction whose cosine with an axis is no more than this counts as square to it: then faces or edges lie on each
+/// other, and their middles are tried first.
 const LEVEL: f64 = 1e-10;
 
 /// Two boxes in A's axes, about A's centre.

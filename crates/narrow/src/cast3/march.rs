@@ -142,9 +142,10 @@ impl March<'_> {
 }
 
 impl Simplex {
-    /// Adds a corner, and drops those that do not carry the point nearest to `origin`, to where the origin has moved.
-    /// Returns that point's distance; `None` if the origin is contained. Compares all faces if the first that fits is
-    /// not nearer than `nearer_than`, or if no corner was added: then the last need not be part of the nearest face.
+    /// Adds a corner, and drops those that do not carry the point nearest to `origin`, which is where the origin has
+    /// moved to. Returns that point's distance; `None` if the origin is contained. Compares all faces if the first that
+    /// fits is not nearer than `nearer_than`, or if no corner was added: then the last need not be part of the nearest
+    /// face.
     fn grow(&mut self, corner: Option<Corner>, origin: DVec3, nearer_than: f64) -> Option<f64> {
         if let Some(corner) = corner {
             self.corners.try_push(corner).ok()?;

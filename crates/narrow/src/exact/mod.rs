@@ -5,9 +5,9 @@
 //!     contains the origin
 //! S = the corners that f64 stopped at (any corner of C will do)
 //! repeat
-//!   v = the point of the hull of S nearest to the origin, and S = the corners that carry it      (nearest)
+//!   v = the point of the hull of S nearest to the origin, and S = the corners that carry it    (nearest)
 //!   v = 0:                              they share a point;  S is the proof
-//!   w = the corner of C least along v                                                          (support)
+//!   w = the corner of C least along v                                                          (question)
 //!   v.w > 0:                            they are apart;      v is the proof
 //!   S = S and w: v gets shorter
 //! radii R: within R as soon as |v| <= R;  apart as soon as v.w > R |v|;  both compared as squares

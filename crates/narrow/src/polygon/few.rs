@@ -177,7 +177,7 @@ pub(super) fn separating_axes<const N: usize>(
     Outcome::Within(axes)
 }
 
-/// What the axes say of the two shapes.
+/// Whether the axes show the two shapes apart, or overlapping, by more than `doubt`.
 #[inline]
 pub(super) fn sides<const N: usize>([a, b]: [&Few<N>; 2], doubt: f64) -> Sides {
     let (in_a, _) = a.best(b);

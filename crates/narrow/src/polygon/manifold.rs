@@ -126,8 +126,8 @@ struct Depths {
     near: f64,
 }
 
-/// The deepest vertex of the other shape, and its foot on the line of the axis' edge: what is left if the edge and what
-/// touches it lie side by side.
+/// The deepest vertex of the other shape, and its foot on the line of the axis' edge: the fallback where that edge is
+/// not over what touches it.
 #[cold]
 fn deepest_point(a: &impl Placed, b: &impl Placed, axis: &Axis) -> Point {
     match axis.of {
@@ -432,9 +432,9 @@ struct End {
 
 type Clipped = Option<[End; 2]>;
 
-/// The incident edge clipped to the width of the reference edge; `None` where they lie side by side. `edges` are the
-/// vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other, the point
-/// is named after both, whichever is further in: so ids stay the same while bodies of equal width tremble on each
+/// The incident edge clipped to the width of the reference edge; `None` where no part of it is over that. `edges` are
+/// the vertices at their ends, the reference's first. Where ends of both are within `near` metres of each other, the
+/// point is named after both, whichever is further in: so ids stay the same while bodies of equal width tremble on each
 /// other.
 #[inline]
 fn clip(

@@ -13,7 +13,7 @@
 //! | trick | gain, rectangles of a broad phase, yes or no |
 //! |---|---|
 //! | closed form in place of eight dot products an axis | 103 ns to 52 |
-//! | asked before a pair has been made ready for other kernels | 52 ns to 30 |
+//! | tested before a pair has been prepared for other kernels | 52 ns to 30 |
 //!
 //! `rect/mixed/manifold` of `compare` went from 130 ns to 97 (AMD EPYC, Zen 4, 2026-11-21; both beside other work).
 //! What was saved are branches that cannot be predicted (which edge, which sign) and stalls: a load of 16 bytes that
@@ -212,7 +212,7 @@ impl Placed for Corners {
 
     #[inline]
     fn point(&self, vertex: usize) -> DVec2 {
-        // Counter-clockwise from the lowest corner. By table, since a branch on the vertex cannot be predicted.
+        // Counter-clockwise from the lower left. By table, since a branch on the vertex cannot be predicted.
         const SIGNS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let [x, y] = SIGNS[vertex % 4];
         self.center + (self.halves[0] * x + self.halves[1] * y)

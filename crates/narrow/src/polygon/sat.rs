@@ -85,7 +85,7 @@ pub(crate) enum Outcome {
     Within(Axes),
 }
 
-/// What all edge normals say of two shapes.
+/// Whether all edge normals show two shapes apart, or overlapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sides {
     /// One axis certainly separates them.
@@ -114,7 +114,7 @@ pub(crate) fn separating_axes(a: &Outline, b: &Outline, wanted: &Wanted) -> Outc
     }
 }
 
-/// What the axes say of the two shapes, counting only separations and overlaps beyond `doubt`.
+/// Whether the axes show the two shapes apart, or overlapping, by more than `doubt`.
 pub(crate) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
     match a.vertices.len().max(b.vertices.len()) {
         0..=8 => few::sides([&a.few::<8>(), &b.few()], doubt),

@@ -90,7 +90,7 @@ pub(super) fn separating_axes(a: &Outline, b: &Outline, hint: Option<Named>, wan
     }
 }
 
-/// What all axes say of the two shapes.
+/// Whether the axes show the two shapes apart, or overlapping, by more than `doubt`.
 pub(super) fn sides(a: &Outline, b: &Outline, towards_b: DVec2, doubt: f64) -> Sides {
     let mut search = Search::new(a, b, doubt, doubt);
     search.is_sign = true;

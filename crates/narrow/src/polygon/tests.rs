@@ -252,8 +252,8 @@ fn steps(count: usize, offset: DVec2) -> [usize; 2] {
     [one, other]
 }
 
-/// Counted, not timed: for pairs apart or lightly overlapping, sixteen times the vertices cost less than twice the
-/// steps; on one centre, where no edge is better than another, sixteen times the steps.
+/// Counted, not timed: for pairs apart or lightly overlapping, sixteen times the vertices cost at most twice the steps;
+/// on one centre, where no edge is better than another, a best axis costs in proportion to them.
 #[test]
 fn cost_grows_as_the_logarithm_apart_and_as_the_vertices_deep_inside() {
     for offset in [DVec2::new(2.1, 0.3), DVec2::new(1.9, 0.2), DVec2::new(1.2, -0.7), DVec2::new(5.0, 9.0)] {

@@ -1,4 +1,4 @@
-//! Whether two convex shapes share a point, in three tiers, each asked only where the one before cannot decide.
+//! Whether two convex shapes share a point, in three tiers, each used only where the one before cannot decide.
 //!
 //! ```text
 //! Bound    the first test: axes of sharp shapes, a distance in closed form, or as below

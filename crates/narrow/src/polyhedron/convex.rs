@@ -237,7 +237,7 @@ impl<'a> Convex<'a> {
 
     /// Contact points of shapes within the limit, on their surfaces. They are made on the features that last frame's
     /// hint names, unless those are worse by two preferences. Filled in, since they are large. False for two
-    /// half-spaces that overlap without bound, which have none.
+    /// half-spaces that overlap without end, which have none.
     fn touch(&self, near: &Near, query: Query, touch: &mut Touch) -> bool {
         let (margin, preference) = (query.limit, self.preference());
         let (a, b) = match &near.evidence {

@@ -65,7 +65,7 @@ impl Plane {
     }
 
     /// The separation of two half-spaces: the distance of their planes if the normals are exactly opposite; else they
-    /// overlap without bound. `are_opposed` is called only where the planes are parallel up to rounding.
+    /// overlap without end. `are_opposed` is called only where the planes are parallel up to rounding.
     pub(crate) fn separation_from(&self, other: &Self, are_opposed: impl FnOnce() -> bool) -> f64 {
         let may_be =
             self.normal.cross(other.normal).length() <= PARALLEL && self.normal.dot(other.normal) < 0.0;
@@ -79,8 +79,8 @@ impl Plane {
     }
 
     /// Contact points at corners, at most four, of the face that faces the plane, no more than `margin` above it.
-    /// Corners within the first of `slacks` (the preference) of the lowest are as deep as any; within the second
-    /// (`even`), they are for the choice of four.
+    /// Corners higher than the lowest by no more than the first of `slacks` (the preference) count as deepest; for the
+    /// choice of four, by no more than the second (`even`).
     pub(crate) fn touch(&self, core: &Solid, margin: f64, slacks: [f64; 2]) -> Touch {
         let opposed = opposed_face(core, self.normal, slacks[0]);
         let corners = core.topology.face_vertices(opposed.face).map(|vertex| (vertex, core.point(vertex)));

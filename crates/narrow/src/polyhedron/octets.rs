@@ -78,8 +78,8 @@ impl Along {
         (best, place + lane)
     }
 
-    /// The only vertex, of up to 32, whose projection is the greatest up to both projections' errors; `None` where
-    /// there are more.
+    /// The only vertex whose projection is the greatest up to both projections' errors; `None` where there are several,
+    /// or more than 32 vertices in all.
     #[inline(always)]
     pub(super) fn only(&self, octets: &[VertexOctet], extent: f32) -> Option<usize> {
         if octets.len() > IN_A_WORD {

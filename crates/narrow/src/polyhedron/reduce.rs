@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! root = the first corner by its features
-//! for each corner opposite the root: the corner furthest out on either side of that diagonal is the best   (rooted)
+//! for each corner opposite the root: the corner furthest out on either side of that diagonal is the best  (rooted)
 //! the best four of all have one corner in each arc between neighbours of the four found so;
-//! so root at each corner of the shortest arc                                                              (others)
+//! so root at each corner of the arc with the fewest                                                       (for_others)
 //! where none of those four counts as deepest: the same again, root = the first of the corners that do
 //! ```
 //! For a fixed root and a diagonal that turns in one direction, the corners furthest from it move on in the same

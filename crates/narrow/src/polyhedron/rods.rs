@@ -11,7 +11,7 @@ use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::{ALIGNED_FACES, MAX_HULL_VERTICES};
 
-/// Half-edges of a hull with the most vertices: so many edges, each seen from both of its ends.
+/// Half-edges of a hull with the most vertices: each edge may be listed from both of its ends.
 const MAX_HALF_EDGES: usize = 2 * (3 * MAX_HULL_VERTICES - 6);
 
 /// Share of a rod's length by which a place on it may be past its end and still count as the end; a shared stretch that
@@ -50,7 +50,7 @@ impl Rod {
 }
 
 /// Two contact points of edges that lie side by side across a gap of `distance` between the cores, if some pair does:
-/// one of them as deep as any, and the separation of both at most `within`.
+/// one of them counts as deepest, and the separation of both is at most `within`.
 pub(super) fn side_by_side(
     (a, b): (&Solid, &Solid),
     normal: DVec3,

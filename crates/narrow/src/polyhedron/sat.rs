@@ -51,8 +51,8 @@
 //! 10. *an expanding polytope* in place of edge pairs: 128 sides, deep, 200 us -> 18; 24 sides, 24 -> 8 (2026-11-26).
 //!
 //! Tried, and dropped:
-//! - AVX2 for the whole test behind run-time detection: 0 to 15 % slower, though the whole program compiled for it is 8
-//!   to 15 % faster, because calls across that border are not inlined; AVX2 for the support search alone: no gain;
+//! - AVX2 for the whole test behind run-time detection: 0 to 15 % slower, since calls across that border are not
+//!   inlined (the whole program compiled for it is 8 to 15 % faster); AVX2 for the support search alone: no gain;
 //! - one lane in place of eight for faces and edges: 4 times slower; no culling below 24 edges: twice as slow for 8
 //!   vertices; masks in place of eight numbers: slower in portable Rust;
 //! - the furthest vertex as a branch-free sum of indices: 20 % slower: branches are predicted, sums are waited for;
@@ -109,10 +109,10 @@ const MOST_SUPPORTS: usize = 6;
 /// What is asked of the test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
-    /// A separation that is certain: axes that show no more are left out.
+    /// A separation that is certain: axes that show less by more than [`Search::keep`] are left out.
     pub(crate) known: f64,
-    /// The separation along last frame's axis, where that was not proved to be the best: no walk starts from a face
-    /// that shows no more.
+    /// The separation along an axis from which a walk did not succeed, last frame's or a face's: no walk starts from a
+    /// face that shows no more.
     pub(crate) unproved: f64,
     /// How far two edges may lie off the supporting planes of their own axis.
     pub(crate) slack: f64,
@@ -138,7 +138,7 @@ impl Search<'_> {
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
     begun((a, b), search, |mut found, sights, first| {
-        // A face that shows no more than last frame's axis, from which no walk succeeded, is no better a start.
+        // A face that shows no more than the axis from which a walk did not succeed is no better a start.
         if found.axes.best().separation > search.unproved
             && let Some(first) = found.first_hinted(&first, search)
         {

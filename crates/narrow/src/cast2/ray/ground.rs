@@ -6,8 +6,8 @@ use crate::impact2::RayHit2;
 use asunder_geometry::glam::DVec2;
 use asunder_geometry::{Aabb2, Chain, Pose2, Ray2, Run, Shape2};
 
-/// Cosine between a hit's normal and the run's from which on the ray crosses the run; a ray along a segment meets its
-/// end.
+/// Where the cosine between a hit's normal and the run's is more than this, the ray crosses the run; a ray along a
+/// segment meets its end.
 const CROSSED: f64 = 0.5;
 
 pub(super) fn into_chain(

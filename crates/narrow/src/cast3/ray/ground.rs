@@ -65,8 +65,8 @@ impl Cast<'_> {
             if side == Side::Beside {
                 return within;
             }
-            // A triangle that is certainly crossed, as the first, is tested at once: only for such is no bounding
-            // sphere needed.
+            // A triangle that is certainly crossed, as the first, is tested at once; any other only if the ray does not
+            // certainly pass it.
             let is_plain = side == Side::Inside && first.is_none() && !local.is_one_sided;
             if is_plain || !local.passes(corners, within) {
                 let triangle = Triangle3::known(corners);

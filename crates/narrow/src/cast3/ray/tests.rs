@@ -76,7 +76,7 @@ fn what_is_hit_of_thin_hulls_is_there_and_what_is_crossed_is_hit() {
                 center + numbers.vector() * outer * 1.1
             };
             let way = (numbers.vector() * size).as_vec3();
-            // So that the ray passes its target up to rounding.
+            // So that the ray goes through its target up to rounding.
             let origin = target - way.as_dvec3() * (4.0 * outer / f64::from(way.length()));
             let Ok(ray) = Ray3::new(origin, way) else { continue };
             let hit = cast_ray3(&shape, &Pose3::IDENTITY, &ray, f64::INFINITY);

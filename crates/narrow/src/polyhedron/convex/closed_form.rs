@@ -146,7 +146,7 @@ impl Convex<'_> {
         }
         let verdict = self.closed_form_verdict(&result);
         let ClosedForm { separation, at_least: bound, normal, closest, evidence, .. } = result;
-        // Half-spaces that overlap without bound do so exactly.
+        // Half-spaces that overlap without end do so exactly.
         let is_endless = separation == f64::NEG_INFINITY;
         let error = if is_endless { 0.0 } else { precision.of_distance(separation, separation - bound) };
         Probe::Near(Near {

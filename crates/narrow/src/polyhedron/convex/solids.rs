@@ -1,7 +1,7 @@
 //! Solids: the order of the searches, the decision, and the number that agrees with it.
 //!
 //! ```text
-//! contact points   a gap found by last frame's hint, or by this frame's in the next: the distance       (sat::across)
+//! contact points   the distance, if last frame's hint, or the one that this answer leaves, finds it     (sat::across)
 //! hull or cuboid   whether last frame's direction still separates it from another, by bounds in f32     (parted)
 //! two cuboids      all fifteen axes; in a gap, or where those cannot decide, the distance
 //! anything else    last frame's axis, or one near it; for pairs that meet for the first time, a face's  (sat::walk)

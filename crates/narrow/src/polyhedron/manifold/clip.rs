@@ -17,8 +17,8 @@
 use arrayvec::ArrayVec;
 
 /// Nothing is kept further than this many slacks beyond the extent of the reference face. At a right-angled corner,
-/// what is kept lies within a slack of both sides. Each slack is enlarged by at most a root of two, so it lies within
-/// two slacks of the extent.
+/// what is kept lies within a slack of both sides, each slack enlarged by at most a root of two, and so within two
+/// slacks of the extent.
 const TIP_SLACKS: f64 = 4.0;
 
 /// A polygon being clipped. It is clockwise, since the face is seen from behind.

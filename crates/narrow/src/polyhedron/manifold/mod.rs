@@ -233,7 +233,7 @@ impl TouchInput<'_> {
 /// Which corners of a patch become contact points, in metres.
 #[derive(Clone, Copy)]
 struct Depths {
-    /// Corners whose cores are no further apart than this count as deepest.
+    /// Corners of the cores no further apart than this count as deepest.
     deep: f64,
     /// Points no further apart than this, on the shapes' surfaces, count as deepest.
     least: f64,

@@ -81,8 +81,8 @@ pub(super) fn closest_point(a: &Solid, b: &Solid, witness: &Witness) -> Point {
     point.on_surfaces([a.radius, b.radius], witness.across)
 }
 
-/// The edges that the witness points of a gap lie on, if both lie on edges. Not of edges side by side: those have no
-/// axis.
+/// The edges that the witness points of a gap lie on; `None` unless both lie on edges, and for edges side by side,
+/// which have no axis.
 pub(in super::super) fn nearest_edges(a: &Solid, b: &Solid, witness: &Witness) -> Option<AxisOf> {
     let [Feature::Edge(edge_a), Feature::Edge(edge_b)] = carriers(a, b, witness) else { return None };
     let (edge_a, edge_b) = (edge_a as usize, edge_b as usize);

@@ -4,7 +4,7 @@
 //! ```text
 //! start    four points of M = A - B around the origin                                                         (portal)
 //! repeat:  take the facet of the polytope nearest to the origin, with normal m, and the vertex of M furthest along m
-//!          if the facet is near enough to the known depth, or no vertex lies beyond it: done
+//!          if the facet is as far out as the known depth, or no vertex lies beyond it, up to a slack: done
 //!          remove every facet that the vertex is beyond, and connect the rim of the hole to the vertex
 //! ```
 //! van den Bergen, "Proximity queries and penetration depth computation on 3D game objects" (GDC 2001). There the
@@ -79,8 +79,8 @@ struct Surface {
     doubt: f64,
 }
 
-/// How deep solids overlap, up to a slack, if some direction shows `known_depth` (infinite where none is known); `None`
-/// where rounding is in the way, or too many vertices would be needed.
+/// How deep solids overlap, up to a slack, given that some direction shows `known_depth` (infinite where none is
+/// known); `None` where rounding is in the way, or too many vertices would be needed.
 ///
 /// The slack is finite, and more than the rounding of a projection, so that each vertex removes a facet.
 #[inline(never)]

@@ -29,7 +29,7 @@ pub(crate) enum Judged {
 }
 
 impl Hinted {
-    /// `None` where the hint names no axis that this pair has.
+    /// Evaluates the axis that a hint names; `None` where this pair has no such axis.
     pub(crate) fn new((a, b): (&Solid, &Solid), hint: Hint, precision: &Precision) -> Option<Self> {
         let of = match axis_in(hint)? {
             // A hint from other shapes may name a half-edge that does not stand for its edge here.
@@ -41,7 +41,7 @@ impl Hinted {
         Self::at((a, b), of, precision)
     }
 
-    /// `None` where this pair has no such axis.
+    /// Evaluates the axis of these features; `None` where this pair has no such axis.
     pub(super) fn at((a, b): (&Solid, &Solid), of: AxisOf, precision: &Precision) -> Option<Self> {
         let (normal, doubt) = match of {
             AxisOf::FaceA(face) if a.has_face(face as u32) => (a.normal(face), precision.of_face()),
