@@ -57,7 +57,9 @@ use core::ops::{Add, Mul, Neg, Sub};
 pub struct Walk<N> {
     /// The upward direction, of any length. Zero for a character that has no ground, such as one that flies.
     pub up: N,
-    /// The gap that is kept to all solids. Default: a hundredth of the shape's bounding radius.
+    /// The gap that is kept to all solids that are met. A solid that is merely passed, such as an edge or the side of a
+    /// hollow, may be nearer at the end of a move; the next move begins by moving away from it, where there is room.
+    /// Default: a hundredth of the shape's bounding radius.
     pub skin: f32,
     /// The least cosine between up and the normal of ground that can be walked on, 0 to 1: anything steeper is a wall.
     /// Default: 0.7, which is 45.6 degrees. A NaN counts as 0.7, and less than 1e-3 as 1e-3.
