@@ -7,6 +7,7 @@ mod cuts;
 mod floors;
 mod grids;
 mod hooks;
+mod kept;
 mod leaves;
 mod middles;
 mod needles;

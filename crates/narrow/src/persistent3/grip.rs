@@ -14,7 +14,11 @@ use asunder_geometry::glam::{DVec3, Vec3};
 pub(super) struct Grip {
     /// The gradient of the rise, in world axes.
     gradient: Vec3,
-    /// By how much that differs from the normal.
+    /// Where two edges cross: the stretch of the body's edge on either side of the crossing, in world axes, and how much
+    /// of it the crossing slides back for a motion, as a gradient. Zero for points that stay where they are on the body
+    /// or on ground.
+    slide: [Vec3; 2],
+    /// By how much the gradient differs from the normal.
     lean: f32,
     /// Whether the point stays where it is on ground.
     is_of_ground: bool,
@@ -50,7 +54,7 @@ const LEAST_COSINE: f64 = 0.125;
 const ROUNDED: f64 = f32::EPSILON as f64;
 
 impl Grip {
-    pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, is_of_ground: false };
+    pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, slide: STAYS, lean: 0.0, is_of_ground: false };
 
     /// The grip of a point, and where it may leave it; `None` where it is not known what holds the point.
     pub(super) fn of(
@@ -85,8 +89,9 @@ impl Grip {
             (Feature::Edge(own), Feature::Edge(theirs)) => {
                 let own = Edge::of(on.body, own)?;
                 let [from, stop] = near.edge(theirs)?;
-                let across =
-                    on.body_basis.turn(own.along).cross(on.basis.turn((stop - from).try_normalize()?));
+                let (along, theirs_along) =
+                    (on.body_basis.turn(own.along), on.basis.turn((stop - from).try_normalize()?));
+                let across = along.cross(theirs_along);
                 let (sine, place) = (across.length(), own.along.dot(local - own.from));
                 // A lower bound on the distance to any end: the crossing slides by no more than the drift over the
                 // sine.
@@ -98,7 +103,9 @@ impl Grip {
                     _ => None,
                 };
                 let cost = around.map_or(UNKNOWN, |(corner, bend)| corner + bend);
-                (Self::along(across, normal, false)?, Seam { free: 0.5 * ends * sine, cost })
+                let slide = sliding([along, theirs_along], normal, ends);
+                let grip = Self { slide, ..Self::along(across, normal, false)? };
+                (grip, Seam { free: 0.5 * ends * sine, cost })
             }
             _ => return None,
         };
@@ -114,12 +121,19 @@ impl Grip {
         // The manifold's normal is rounded to f32.
         let lean = (gradient - normal).length();
         let lean = if lean <= ROUNDED { 0.0 } else { (lean as f32).next_up() };
-        Some(Self { gradient: gradient.as_vec3(), lean, is_of_ground })
+        Some(Self { gradient: gradient.as_vec3(), slide: STAYS, lean, is_of_ground })
     }
 
     #[inline(always)]
     pub(super) fn rise(&self, way: DVec3) -> f64 {
         self.gradient.as_dvec3().dot(way)
+    }
+
+    /// How far the point slides along the body for a motion of the matter there: no further than the edges reach.
+    #[inline(always)]
+    pub(super) fn slide(&self, way: DVec3) -> DVec3 {
+        let [stretch, gradient] = self.slide;
+        stretch.as_dvec3() * -gradient.as_dvec3().dot(way).clamp(-1.0, 1.0)
     }
 
     pub(super) const fn is_of_ground(&self) -> bool {
@@ -135,11 +149,27 @@ impl Grip {
         1.0 + self.lean
     }
 
-    /// Whether it is a possible one: for data that was read from a file.
-    pub(super) fn is_sound(&self) -> bool {
+    /// Whether it is a possible one for a body that reaches this far: for data that was read from a file.
+    pub(super) fn is_sound(&self, arm: f32) -> bool {
         let most = 2.0 / LEAST_COSINE as f32;
-        self.gradient.is_finite() && self.gradient.length() <= most && (0.0..=most).contains(&self.lean)
+        let [stretch, gradient] = self.slide;
+        self.gradient.is_finite()
+            && self.gradient.length() <= most
+            && (0.0..=most).contains(&self.lean)
+            && stretch.length() <= 2.0 * arm
+            && gradient.is_finite()
     }
+}
+
+/// The point stays where it is on the body or on ground.
+const STAYS: [Vec3; 2] = [Vec3::ZERO; 2];
+
+/// How a crossing slides along the body's edge e, which reaches `ends` metres to either side: with the edge v of ground,
+/// a motion u leads it back by e (u . w) / (e . w), where w = v x n is square to v and to the normal.
+fn sliding([edge, other]: [DVec3; 2], normal: DVec3, ends: f64) -> [Vec3; 2] {
+    let across = other.cross(normal);
+    let slide = [(edge * ends).as_vec3(), (across / (edge.dot(across) * ends)).as_vec3()];
+    if ends > 0.0 && slide[1].is_finite() { slide } else { STAYS }
 }
 
 /// The cost, as a share of the motion, where an edge of ground stops crossing one side of a cuboid's face, at an angle

@@ -11,6 +11,7 @@
 //!                                                     g = f / (f . n)
 //!     an edge u' of the body that crosses an edge v:  g = c / (c . n),  c = u' x v
 //! that is exact for t, as long as the features meet: vertices stay over faces, edges go on crossing           (flat)
+//! where edges cross, the point slides along both, to where they cross now                                     (grip)
 //! turning by `spin` adds  |g| |u| spin  and lets points that are not reported get deeper by up to  3 spin * arm
 //! overlap:     no, while the drift is less than the gap between them
 //!              yes, while a segment of the body crosses a triangle, or a point of ground is in the box     (witness)
@@ -217,7 +218,7 @@ impl Grounded {
             && (0.0..=self.arm).contains(&self.reach)
             && (0.0..=most_loss(self.arm)).contains(&self.most_loss)
             && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
-            && grips.iter().flatten().all(Grip::is_sound)
+            && grips.iter().flatten().all(|grip| grip.is_sound(self.arm))
             && witness.len() <= 1
             && witness.iter().all(Witness::is_sound)
     }
@@ -313,13 +314,14 @@ impl Grounded {
             let [on_body, on_ground] = self.sides([point.anchor_a, point.anchor_b]);
             let (on_body, then) = (on_body.as_dvec3(), f64::from(point.separation));
             let turned = moved.turn.turn(on_body);
-            let rise = grip.rise(moved.step + (turned - on_body));
+            let way = moved.step + (turned - on_body);
+            let rise = grip.rise(way);
             let height = then + rise;
             let (body, ground) = if grip.is_of_ground() {
                 ((on_body - moved.step + towards * rise).as_vec3(), on_ground)
             } else {
-                let way = moved.step + (turned - on_body) - towards * rise;
-                (turned.as_vec3(), (on_ground.as_dvec3() + way).as_vec3())
+                let slide = grip.slide(way);
+                ((turned + slide).as_vec3(), (on_ground.as_dvec3() + way + slide - towards * rise).as_vec3())
             };
             (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
             let [anchor_a, anchor_b] = self.sides([body, ground]);
