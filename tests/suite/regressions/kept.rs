@@ -29,15 +29,14 @@ fn a_point_where_edges_cross_stays_on_both() {
     let along = Vec3::new(0.25, 0.6, 1.0);
     let radius = 0.1;
     let rod = Capsule3::new(along * -0.5, along * 0.5, radius).unwrap();
-    let furthest = f64::from(Shape3::from(rod.clone()).outer_radius()) / 256.0;
+    let furthest = f64::from(Shape3::from(rod).outer_radius()) / 256.0;
     let (start, turn) = (DVec3::new(-0.02, 0.5, 0.0), Quat::from_xyzw(0.0, 0.0, 1e-4, 1.0));
     for (way, turn) in
         [(DVec3::X, Quat::IDENTITY), (DVec3::new(0.5, 0.2, -0.3), Quat::IDENTITY), (DVec3::X, turn)]
     {
         let mut world = World3::new();
         let floor = world.insert(Collider3::new(floor()));
-        let body =
-            world.insert(Collider3::new(rod.clone()).margin(0.5).unwrap().at(Pose3::at(start).unwrap()));
+        let body = world.insert(Collider3::new(rod).margin(0.5).unwrap().at(Pose3::at(start).unwrap()));
         world.update();
         let (first, ..) = ends(&world, floor, body);
         assert!(matches!([first.feature.a(), first.feature.b()], [Feature::Edge(_), Feature::Edge(_)]));
