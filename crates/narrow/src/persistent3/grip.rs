@@ -14,14 +14,32 @@ use asunder_geometry::glam::{DVec3, Vec3};
 pub(super) struct Grip {
     /// The gradient of the rise, in world axes.
     gradient: Vec3,
-    /// Where two edges cross: the stretch of the body's edge on either side of the crossing, in world axes, and how much
-    /// of it the crossing slides back for a motion, as a gradient. Zero for points that stay where they are on the body
-    /// or on ground.
-    slide: [Vec3; 2],
     /// By how much the gradient differs from the normal.
     lean: f32,
-    /// Whether the point stays where it is on ground.
-    is_of_ground: bool,
+    /// What the point stays on.
+    place: Place,
+}
+
+/// What a point stays on while the body moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) enum Place {
+    /// The same place on the body.
+    Body,
+    /// The same place on ground.
+    Ground,
+    /// An edge of each: it slides along both ([`Slide`]).
+    Edges,
+}
+
+/// How a point slides along an edge of the body where that crosses an edge of ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(super) struct Slide {
+    /// The part of the body's edge that it may reach to one side, in world axes.
+    stretch: Vec3,
+    /// The share of that by which a motion leads it back, as a gradient.
+    back: Vec3,
 }
 
 /// Where a point may leave the features that hold it: how far the body may move before, in metres, and the error
@@ -54,7 +72,7 @@ const LEAST_COSINE: f64 = 0.125;
 const ROUNDED: f64 = f32::EPSILON as f64;
 
 impl Grip {
-    pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, slide: STAYS, lean: 0.0, is_of_ground: false };
+    pub(super) const NONE: Self = Self { gradient: Vec3::ZERO, lean: 0.0, place: Place::Body };
 
     /// The grip of a point, and where it may leave it; `None` where it is not known what holds the point.
     pub(super) fn of(
@@ -62,29 +80,30 @@ impl Grip {
         manifold: &Manifold3,
         point: &ContactPoint3,
         (near, reach): (&NearPoints, f32),
-    ) -> Option<(Self, Seam)> {
+    ) -> Option<(Self, Seam, Option<Slide>)> {
         let (normal, reach) = (on.towards(manifold), f64::from(reach));
         if matches!(on.body, Shape3::Sphere(_)) {
             // Whatever ground is under it next, the normal turns by no more than the motion over the distance from the
             // centre to that ground: the ball's curvature, which `Grounded::loss` charges for.
-            return Some((Self::along(normal, normal, false)?, Seam::NONE));
+            return Some((Self::along(normal, normal, Place::Body)?, Seam::NONE, None));
         }
         let [of_body, of_ground] = on.in_order([point.feature.a(), point.feature.b()]);
         let [on_body, foot] = on.ends(manifold, point);
         let (local, foot) = (on.body_basis.turn_back(on_body), on.basis.turn_back(foot));
         let normal_there = on.basis.turn_back(normal);
+        let mut slide = None;
         let (grip, seam) = match (of_body, of_ground) {
             (Feature::Vertex(_), Feature::Face(patch)) => {
                 // Kernels may report it along a normal other than the triangle's.
                 let [a, b, c] = near.under(foot, normal_there, Some(patch))?;
                 let own = (b - a).cross(c - a).try_normalize()?;
                 let seam = near.seam_around(foot, (own, patch), reach);
-                (Self::along(on.basis.turn(own), normal, false)?, seam)
+                (Self::along(on.basis.turn(own), normal, Place::Body)?, seam)
             }
             (Feature::Face(face), Feature::Vertex(_)) => {
                 let out = on.body_basis.turn(face_normal(on.body, face as usize)?);
                 let free = inside(on.body, face as usize, local);
-                (Self::along(out, normal, true)?, Seam { free, cost: UNKNOWN })
+                (Self::along(out, normal, Place::Ground)?, Seam { free, cost: UNKNOWN })
             }
             (Feature::Edge(own), Feature::Edge(theirs)) => {
                 let own = Edge::of(on.body, own)?;
@@ -92,36 +111,39 @@ impl Grip {
                 let (along, theirs_along) =
                     (on.body_basis.turn(own.along), on.basis.turn((stop - from).try_normalize()?));
                 let across = along.cross(theirs_along);
-                let (sine, place) = (across.length(), own.along.dot(local - own.from));
+                let (sine, from_start) = (across.length(), own.along.dot(local - own.from));
                 // A lower bound on the distance to any end: the crossing slides by no more than the drift over the
                 // sine.
-                let ends =
-                    place.min(own.length - place).min((foot - from).length()).min((foot - stop).length());
+                let ends = from_start
+                    .min(own.length - from_start)
+                    .min((foot - from).length())
+                    .min((foot - stop).length());
                 let around = match on.body {
                     Shape3::Cuboid(_) => around_corner(on.body_basis.turn_back(normal), sine)
                         .zip(near.bend_at(theirs, normal_there)),
                     _ => None,
                 };
                 let cost = around.map_or(UNKNOWN, |(corner, bend)| corner + bend);
-                let slide = sliding([along, theirs_along], normal, ends);
-                let grip = Self { slide, ..Self::along(across, normal, false)? };
-                (grip, Seam { free: 0.5 * ends * sine, cost })
+                slide = Slide::of([along, theirs_along], normal, ends);
+                let place = if slide.is_some() { Place::Edges } else { Place::Body };
+                (Self::along(across, normal, place)?, Seam { free: 0.5 * ends * sine, cost })
             }
             _ => return None,
         };
         // Along a normal that leans, a point moves further than the body does.
         let free = seam.free / f64::from(grip.steep());
-        Some((grip, if free >= reach { Seam::NONE } else { Seam { free: free.max(0.0), ..seam } }))
+        let seam = if free >= reach { Seam::NONE } else { Seam { free: free.max(0.0), ..seam } };
+        Some((grip, seam, slide))
     }
 
     /// For a point measured along a normal, from a plane that `direction` is square to.
-    fn along(direction: DVec3, normal: DVec3, is_of_ground: bool) -> Option<Self> {
+    fn along(direction: DVec3, normal: DVec3, place: Place) -> Option<Self> {
         let cosine = direction.dot(normal);
         let gradient = direction / Some(cosine).filter(|cosine| cosine.abs() >= LEAST_COSINE)?;
         // The manifold's normal is rounded to f32.
         let lean = (gradient - normal).length();
         let lean = if lean <= ROUNDED { 0.0 } else { (lean as f32).next_up() };
-        Some(Self { gradient: gradient.as_vec3(), slide: STAYS, lean, is_of_ground })
+        Some(Self { gradient: gradient.as_vec3(), lean, place })
     }
 
     #[inline(always)]
@@ -129,15 +151,8 @@ impl Grip {
         self.gradient.as_dvec3().dot(way)
     }
 
-    /// How far the point slides along the body for a motion of the matter there: no further than the edges reach.
-    #[inline(always)]
-    pub(super) fn slide(&self, way: DVec3) -> DVec3 {
-        let [stretch, gradient] = self.slide;
-        stretch.as_dvec3() * -gradient.as_dvec3().dot(way).clamp(-1.0, 1.0)
-    }
-
-    pub(super) const fn is_of_ground(&self) -> bool {
-        self.is_of_ground
+    pub(super) const fn place(&self) -> Place {
+        self.place
     }
 
     pub(super) const fn lean(&self) -> f32 {
@@ -149,27 +164,32 @@ impl Grip {
         1.0 + self.lean
     }
 
-    /// Whether it is a possible one for a body that reaches this far: for data that was read from a file.
-    pub(super) fn is_sound(&self, arm: f32) -> bool {
+    /// Whether it is a possible one: for data that was read from a file.
+    pub(super) fn is_sound(&self) -> bool {
         let most = 2.0 / LEAST_COSINE as f32;
-        let [stretch, gradient] = self.slide;
-        self.gradient.is_finite()
-            && self.gradient.length() <= most
-            && (0.0..=most).contains(&self.lean)
-            && stretch.length() <= 2.0 * arm
-            && gradient.is_finite()
+        self.gradient.is_finite() && self.gradient.length() <= most && (0.0..=most).contains(&self.lean)
     }
 }
 
-/// The point stays where it is on the body or on ground.
-const STAYS: [Vec3; 2] = [Vec3::ZERO; 2];
+impl Slide {
+    /// Along the body's edge e, which is crossed no less than `ends` metres from the end of either edge. With the edge v
+    /// of ground, a motion u leads the crossing back by e (u . w) / (e . w), where w = v x n is square to v and to the
+    /// normal. `None` where that is no number: at an end.
+    fn of([edge, other]: [DVec3; 2], normal: DVec3, ends: f64) -> Option<Self> {
+        let across = other.cross(normal);
+        let (stretch, back) = ((edge * ends).as_vec3(), (across / (edge.dot(across) * ends)).as_vec3());
+        (ends > 0.0 && back.is_finite()).then_some(Self { stretch, back })
+    }
 
-/// How a crossing slides along the body's edge e, which reaches `ends` metres to either side: with the edge v of ground,
-/// a motion u leads it back by e (u . w) / (e . w), where w = v x n is square to v and to the normal.
-fn sliding([edge, other]: [DVec3; 2], normal: DVec3, ends: f64) -> [Vec3; 2] {
-    let across = other.cross(normal);
-    let slide = [(edge * ends).as_vec3(), (across / (edge.dot(across) * ends)).as_vec3()];
-    if ends > 0.0 && slide[1].is_finite() { slide } else { STAYS }
+    /// How far the point slides along the body for a motion of the matter there: no further than to an end.
+    pub(super) fn by(&self, way: DVec3) -> DVec3 {
+        self.stretch.as_dvec3() * -self.back.as_dvec3().dot(way).clamp(-1.0, 1.0)
+    }
+
+    /// Whether it is a possible one for a body that reaches this far: for data that was read from a file.
+    pub(super) fn is_sound(&self, arm: f32) -> bool {
+        self.stretch.length() <= 2.0 * arm && self.back.is_finite()
+    }
 }
 
 /// The cost, as a share of the motion, where an edge of ground stops crossing one side of a cuboid's face, at an angle

@@ -33,7 +33,7 @@
 //! parry3d keeps a manifold per triangle until a point of it slips by a millimetre.
 
 use super::flat::NearPoints;
-use super::grip::{Grip, Seam, UNKNOWN};
+use super::grip::{Grip, Place, Seam, Slide, UNKNOWN};
 use super::hold::arm_of;
 use super::witness::Witness;
 use crate::answer::{Answer, ContactPoint3, Manifold3, Separation3};
@@ -81,6 +81,8 @@ pub(super) struct Grounded {
 pub(super) struct Memory {
     manifolds: Vec<Manifold3>,
     grips: Vec<[Grip; 4]>,
+    /// One for each point that stays on two edges, in the order of the points.
+    slides: Vec<Slide>,
     /// At most one. Stored here for its size: an enum takes the room of its largest variant.
     witness: Vec<Witness>,
 }
@@ -94,15 +96,17 @@ const MANY: usize = 6;
 
 asunder_geometry::copied!(Grounded, { memory, is_ground_b, is_ball, cost, margin, reach, most_loss, arm, poses } but {});
 
-asunder_geometry::copied!(Memory, { manifolds, grips, witness } but {});
+asunder_geometry::copied!(Memory, { manifolds, grips, slides, witness } but {});
 
 impl Memory {
     fn clear(&mut self) {
         self.manifolds.clear();
         self.grips.clear();
+        self.slides.clear();
         self.witness.clear();
         self.manifolds.reserve(MANY);
         self.grips.reserve(MANY);
+        self.slides.reserve(MANY);
         self.witness.reserve(1);
     }
 }
@@ -164,9 +168,10 @@ impl Grounded {
             seams.try_push(Seam { free: 0.0, cost: between }).ok()?;
             let mut grips = [Grip::NONE; 4];
             for (grip, point) in grips.iter_mut().zip(&manifold.points) {
-                let seam;
-                (*grip, seam) = Grip::of(&on, manifold, point, (&near, reach))?;
+                let (seam, slide);
+                (*grip, seam, slide) = Grip::of(&on, manifold, point, (&near, reach))?;
                 seams.try_push(seam).ok()?;
+                memory.slides.extend(slide);
             }
             memory.grips.push(grips);
         }
@@ -210,15 +215,18 @@ impl Grounded {
     }
 
     pub(super) fn is_sound(&self) -> bool {
-        let Memory { manifolds, grips, witness } = &self.memory;
+        let Memory { manifolds, grips, slides, witness } = &self.memory;
+        let held = manifolds.iter().zip(grips).flat_map(|(of, grips)| grips.iter().take(of.points.len()));
         !manifolds.is_empty()
+            && held.filter(|grip| grip.place() == Place::Edges).count() == slides.len()
+            && slides.iter().all(|slide| slide.is_sound(self.arm))
             && manifolds.len() == grips.len()
             && manifolds.iter().all(|of| are_lengths(&[of.separation, of.error]))
             && are_lengths(&[self.margin, self.arm])
             && (0.0..=self.arm).contains(&self.reach)
             && (0.0..=most_loss(self.arm)).contains(&self.most_loss)
             && (0.0..=UNKNOWN as f32 * 1.001).contains(&self.cost)
-            && grips.iter().flatten().all(|grip| grip.is_sound(self.arm))
+            && grips.iter().flatten().all(Grip::is_sound)
             && witness.len() <= 1
             && witness.iter().all(Witness::is_sound)
     }
@@ -258,7 +266,7 @@ impl Grounded {
 
     /// Appends all manifolds as they are now, or none where the error would be too large.
     fn move_along(&self, moved: &Moved, to: &mut Vec<Manifold3>) -> bool {
-        let start = to.len();
+        let (start, mut slides) = (to.len(), self.memory.slides.iter());
         for (of, grips) in self.memory.manifolds.iter().zip(&self.memory.grips) {
             let loss = self.loss(of, grips, moved);
             let is_accurate = loss <= f64::from(self.most_loss);
@@ -268,7 +276,7 @@ impl Grounded {
             }
             to.push(Manifold3::BLANK);
             if let Some(to) = to.last_mut() {
-                self.fill(of, grips, moved, to);
+                self.fill(of, (grips, &mut slides), moved, to);
                 let known = f64::from(of.error);
                 to.error = ((known + loss) as f32).next_up();
             }
@@ -306,7 +314,13 @@ impl Grounded {
         unreported + left + round + rounding + turned
     }
 
-    fn fill(&self, of: &Manifold3, grips: &[Grip; 4], moved: &Moved, to: &mut Manifold3) {
+    fn fill<'s>(
+        &self,
+        of: &Manifold3,
+        (grips, slides): (&[Grip; 4], &mut impl Iterator<Item = &'s Slide>),
+        moved: &Moved,
+        to: &mut Manifold3,
+    ) {
         (to.part_a, to.part_b, to.normal) = (of.part_a, of.part_b, of.normal);
         let towards = if self.is_ground_b { -of.normal.as_dvec3() } else { of.normal.as_dvec3() };
         let (mut deepest, mut deepest_then) = (f64::INFINITY, f64::INFINITY);
@@ -317,12 +331,16 @@ impl Grounded {
             let way = moved.step + (turned - on_body);
             let rise = grip.rise(way);
             let height = then + rise;
-            let (body, ground) = if grip.is_of_ground() {
-                ((on_body - moved.step + towards * rise).as_vec3(), on_ground)
-            } else {
-                let slide = grip.slide(way);
-                ((turned + slide).as_vec3(), (on_ground.as_dvec3() + way + slide - towards * rise).as_vec3())
-            };
+            let (mut body, mut ground) = (turned, on_ground.as_dvec3());
+            match grip.place() {
+                Place::Body => ground += way - towards * rise,
+                Place::Ground => body = on_body - moved.step + towards * rise,
+                Place::Edges => {
+                    let slide = slides.next().map_or(DVec3::ZERO, |slide| slide.by(way));
+                    (body, ground) = (turned + slide, ground + way + slide - towards * rise);
+                }
+            }
+            let (body, ground) = (body.as_vec3(), ground.as_vec3());
             (deepest, deepest_then) = (deepest.min(height), deepest_then.min(then));
             let [anchor_a, anchor_b] = self.sides([body, ground]);
             ContactPoint3 { separation: height as f32, anchor_a, anchor_b, feature: point.feature }
