@@ -1,7 +1,7 @@
 //! Contact points on ground that are moved along.
 
 use asunder::{BodyKey3, Collider3, ContactPoint3, World3};
-use asunder_geometry::{Capsule3, Pose3, Shape3, TriMesh};
+use asunder_geometry::{Capsule3, Cuboid, Pose3, Shape3, TriMesh};
 use asunder_narrow::Feature;
 use glam::{DVec3, Quat, Vec3};
 
@@ -55,5 +55,43 @@ fn a_point_where_edges_cross_stays_on_both() {
             let apart = (on_body - on_floor).length();
             assert!((apart - f64::from(point.separation)).abs() < 2e-6, "step {step}: {apart}");
         }
+    }
+}
+
+/// Symptom: a crossing beside a corner of ground stayed on the body again. Cause: how far it may slide along the body's
+/// edge was bounded by how near the ends of the ground's edge are.
+#[test]
+fn a_crossing_beside_a_corner_of_ground_slides_too() {
+    // A low roof, whose ridge is the z axis; it has a corner at the origin.
+    let row = |x: f32| [-4.0, 0.0, 4.0].map(|z| Vec3::new(x, -0.01 * x.abs(), z));
+    let corners = [row(-4.0), row(0.0), row(4.0)].concat();
+    let cell = |at: u32| [[at, at + 1, at + 3], [at + 3, at + 1, at + 4]];
+    let roof = TriMesh::new(corners, [cell(0), cell(1), cell(3), cell(4)].concat()).unwrap();
+    // The cosine and the sine of 20 degrees: the cube is turned by twice as much about y.
+    let turn = Quat::from_xyzw(0.0, 0.342_020_14, 0.0, 0.939_692_6);
+    for gap in [0.1, 1e-3, 1e-4, 1e-6] {
+        let mut world = World3::new();
+        let ground = world.insert(Collider3::new(roof.clone()));
+        let cube = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap()).margin(0.02).unwrap();
+        // An edge of its lower face crosses the ridge that far beyond the corner.
+        let start = DVec3::new(0.0, 0.4999, 0.5 / 0.766_044_443_118_978 + gap);
+        let body = world.insert(cube.at(Pose3::new(start, turn).unwrap()));
+        // What is kept is made in the second update.
+        for way in [0.0, 1e-6, 0.003] {
+            world.set_pose(body, Pose3::new(start + DVec3::X * way, turn).unwrap()).unwrap();
+            world.update();
+        }
+        let contact = world.contact(ground, body).unwrap();
+        let points = contact.manifolds.iter().flat_map(|manifold| &manifold.points);
+        let crossings = points.filter(|point| matches!(point.feature.a(), Feature::Edge(_)));
+        let off = crossings.map(|point| Vec3::new(point.anchor_a.x, point.anchor_a.y, 0.0).length());
+        assert!(off.fold(0.0, f32::max) < 2e-6, "{gap}: {contact:?}");
+        assert!(
+            contact
+                .manifolds
+                .iter()
+                .flat_map(|of| &of.points)
+                .any(|at| matches!(at.feature.a(), Feature::Edge(_)))
+        );
     }
 }

@@ -36,10 +36,12 @@ pub(super) enum Place {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Slide {
-    /// The part of the body's edge that it may reach to one side, in world axes.
-    stretch: Vec3,
-    /// The share of that by which a motion leads it back, as a gradient.
+    /// The direction of the body's edge, in world axes.
+    along: Vec3,
+    /// How far back along it a motion leads the point, as a gradient.
     back: Vec3,
+    /// How far the body's edge reaches from the point, back and on, in metres.
+    ends: [f32; 2],
 }
 
 /// Where a point may leave the features that hold it: how far the body may move before, in metres, and the error
@@ -124,7 +126,7 @@ impl Grip {
                     _ => None,
                 };
                 let cost = around.map_or(UNKNOWN, |(corner, bend)| corner + bend);
-                slide = Slide::of([along, theirs_along], normal, ends);
+                slide = Slide::of([along, theirs_along], normal, [from_start, own.length - from_start]);
                 let place = if slide.is_some() { Place::Edges } else { Place::Body };
                 (Self::along(across, normal, place)?, Seam { free: 0.5 * ends * sine, cost })
             }
@@ -172,23 +174,30 @@ impl Grip {
 }
 
 impl Slide {
-    /// Along the body's edge e, which is crossed no less than `ends` metres from the end of either edge. With the edge v
-    /// of ground, a motion u leads the crossing back by e (u . w) / (e . w), where w = v x n is square to v and to the
-    /// normal. `None` where that is no number: at an end.
-    fn of([edge, other]: [DVec3; 2], normal: DVec3, ends: f64) -> Option<Self> {
+    /// Along the body's edge e, which reaches this far back and on. With the edge v of ground, a motion u leads the
+    /// crossing back by e (u . w) / (e . w), where w = v x n is square to v and to the normal. Only the body's edge is
+    /// bounded: at an end of the ground's, its line most often goes on. `None` where the edges do not cross.
+    fn of([edge, other]: [DVec3; 2], normal: DVec3, ends: [f64; 2]) -> Option<Self> {
         let across = other.cross(normal);
-        let (stretch, back) = ((edge * ends).as_vec3(), (across / (edge.dot(across) * ends)).as_vec3());
-        (ends > 0.0 && back.is_finite()).then_some(Self { stretch, back })
+        let back = (across / edge.dot(across)).as_vec3();
+        let ends = ends.map(|end| end.max(0.0) as f32);
+        back.is_finite().then_some(Self { along: edge.as_vec3(), back, ends })
     }
 
     /// How far the point slides along the body for a motion of the matter there: no further than to an end.
     pub(super) fn by(&self, way: DVec3) -> DVec3 {
-        self.stretch.as_dvec3() * -self.back.as_dvec3().dot(way).clamp(-1.0, 1.0)
+        let [back, on] = self.ends.map(f64::from);
+        // Not `clamp`, which may panic.
+        self.along.as_dvec3() * (-self.back.as_dvec3().dot(way)).max(-back).min(on)
     }
 
     /// Whether it is a possible one for a body that reaches this far: for data that was read from a file.
     pub(super) fn is_sound(&self, arm: f32) -> bool {
-        self.stretch.length() <= 2.0 * arm && self.back.is_finite()
+        let is_end = |end: &f32| (0.0..=4.0 * arm).contains(end);
+        self.along.is_finite()
+            && self.along.length() <= 2.0
+            && self.back.is_finite()
+            && self.ends.iter().all(is_end)
     }
 }
 
