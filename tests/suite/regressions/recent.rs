@@ -1,4 +1,4 @@
-//! Queries about bodies that have just come, which are in a list, and about others, whose boxes are in a tree.
+//! Queries about bodies inserted since the last query, which are in a list, and about others, which are in a tree.
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
@@ -6,13 +6,13 @@ use asunder::{
     Pair3, Pose2, Pose3, Rect, Shape2, Shape3, Sphere, World2, World3,
 };
 
-/// How far above the compound the moved shape passes, in metres. A cast may call what is so near a hit.
+/// How far above the compound the moved shape passes, in metres. A cast may report a hit that near.
 const GAPS: [f64; 5] = [1e-9, 1e-8, 1e-7, 3e-7, 1e-6];
 
-/// Symptom: a cast that grazes a compound hit it, or did not, depending on whether the body had come before the last
-/// query or after: so a restored world, whose queries make their trees anew, went on otherwise. Cause: a body is only
-/// told to be met where its box is, so that no box of a tree is passed over wrongly; but for compounds that box was
-/// the one around their bounding sphere, which is larger than the one in the tree.
+/// Symptom: a cast that grazes a compound hit it or not, depending on whether the body was inserted before the last
+/// query or after it. So a restored world, whose queries build their trees anew, could go on differently. Cause: a body
+/// counts as met only where its box is met, so that no box in a tree is skipped wrongly; but for compounds that was the
+/// box around their bounding sphere, which is larger than the one in the tree.
 #[test]
 fn a_compound_that_is_grazed_is_met_in_trees_and_lists_alike() {
     let bar = Capsule3::new(Vec3::new(0.0, 0.0, -0.5), Vec3::new(0.0, 0.0, 0.5), 1.0).unwrap();
@@ -32,7 +32,7 @@ fn a_compound_that_is_grazed_is_met_in_trees_and_lists_alike() {
         let [one, other] = [&listed, &both].map(|world| world.cast_shape((&shape, &from), way, &filter));
         assert_eq!(one, other, "{gap}");
         let pair = Pair3::new(&shape, &from, below.shape(), below.pose());
-        // What only a box that is larger than the compound's own would let pass.
+        // Hits that only a box larger than the compound's own would let pass.
         beside += usize::from(one.is_none() && pair.cast(way).is_some());
     }
     assert!(beside > 0, "a test of nothing");
@@ -58,7 +58,7 @@ fn a_flat_compound_that_is_grazed_is_met_in_trees_and_lists_alike() {
         let [one, other] = [&listed, &both].map(|world| world.cast_shape((&shape, &from), way, &filter));
         assert_eq!(one, other, "{gap}");
         let pair = Pair2::new(&shape, &from, below.shape(), below.pose());
-        // What only a box that is larger than the compound's own would let pass.
+        // Hits that only a box larger than the compound's own would let pass.
         beside += usize::from(one.is_none() && pair.cast(way).is_some());
     }
     assert!(beside > 0, "a test of nothing");
