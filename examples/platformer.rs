@@ -1,4 +1,4 @@
-//! A platformer character in 2D jumps onto a ledge that is solid only from above.
+//! A platformer character in 2D jumps onto a ledge that is solid only from above, and a lift of the same kind carries it.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{Capsule2, Collider2, Filter2, Pose2, Rect, Shape2, Walk2, World2};
@@ -13,22 +13,34 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     world.insert(block([12.0, 0.5], [12.0, -0.5])?);
     world.insert(block([4.0, 0.25], [11.0, 1.75])?.user_data(ONE_WAY));
-    world.insert(block([0.5, 2.0], [19.5, 2.0])?);
+    world.insert(block([0.5, 3.0], [21.5, 3.0])?);
+    let lift = world.insert(block([2.0, 0.25], [19.0, -0.5])?.user_data(ONE_WAY));
 
     let hero = Shape2::from(Capsule2::from_half_height(0.3, 0.3)?);
     let walk = Walk2::new(&hero, Vec2::Y)?;
     let mut pose = Pose2::at([1.0, 0.61])?;
-    let (mut fall, mut trace) = (0.0, Vec::new());
-    for frame in 0..60 {
-        // A ledge is solid only while the feet are above it and not rising.
+    let (mut fall, mut stands_on, mut trace) = (0.0, None, Vec::new());
+    for frame in 0..80 {
+        // The lift moves first, and takes along who stands on it.
+        let rise: f32 = if frame < 40 { 0.0 } else { 0.08 };
+        let at = world.pose(lift).ok_or("the lift is gone")?.position() + DVec2::Y * f64::from(rise);
+        world.set_pose(lift, Pose2::at(at)?)?;
+        if stands_on == Some(lift) {
+            pose = Pose2::at(pose.position() + DVec2::Y * f64::from(rise))?;
+        }
+        // A ledge is solid only while the feet do not rise against it and were not below it, before either moved.
         let feet = pose.position().y - 0.6;
-        let is_solid = |_, body: &Collider2| {
+        let is_solid = |key, body: &Collider2| {
             let top = body.pose().position().y + 0.25;
-            body.get_user_data() != ONE_WAY || fall <= 0.0 && feet >= top
+            let carried = if stands_on == Some(lift) { rise } else { 0.0 };
+            let own_rise = if key == lift { rise } else { 0.0 };
+            let was_above = feet - f64::from(carried) >= top - f64::from(own_rise);
+            body.get_user_data() != ONE_WAY || fall <= own_rise && was_above
         };
         let filter = Filter2::new().only(&is_solid);
         let slide = world.move_and_slide((&hero, &pose), Vec2::new(0.32, fall), &walk, &filter);
         pose = slide.pose;
+        stands_on = slide.ground.map(|ground| ground.body);
         trace.push(pose.position() - DVec2::Y * 0.6);
         fall = match slide.ground {
             Some(_) if frame == 20 => 0.6,

@@ -96,7 +96,7 @@ fn hints(criterion: &mut Criterion) {
 
 fn job(pair: &PosedPair3, hint: Hint) -> Job3<'_> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor: false }
 }
 
 /// Faces on faces, with the hints of the previous frame.

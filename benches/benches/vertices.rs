@@ -55,7 +55,7 @@ fn space(criterion: &mut Criterion) {
 
 fn job(pair: &PosedPair3, hint: Hint, sensor: bool) -> Job3<'_> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor }
 }
 
 /// Boxes without hints, all in one call.

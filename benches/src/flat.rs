@@ -224,7 +224,7 @@ impl Memory {
 
 fn job(pair: &PosedPair2, hint: Hint) -> Job2<'_> {
     let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job2 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }
+    Job2 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor: false }
 }
 
 #[cfg(test)]

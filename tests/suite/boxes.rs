@@ -10,7 +10,7 @@ use glam::{DVec3, Quat, Vec3};
 
 fn job(pair: &PosedPair3, margin: f32, hint: Hint, sensor: bool) -> Job3<'_> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor }
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor }
 }
 
 fn hint_of(answer: &Answer) -> Hint {
@@ -152,6 +152,7 @@ fn eight_at_a_time_they_overlap_exactly_when_exact_arithmetic_says_so() {
                 pose_b,
                 margin: 0.0,
                 hint: Hint::NONE,
+                ahead: 0.0,
                 sensor,
             })
             .collect();

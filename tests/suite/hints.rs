@@ -64,7 +64,7 @@ impl Pair for PosedPair3 {
         let mut jobs = Vec::new();
         for (pair, &hint) in pairs.iter().zip(hints) {
             let Self { shape_a, pose_a, shape_b, pose_b } = pair;
-            jobs.push(Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor });
+            jobs.push(Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor });
         }
         let mut batch = Batch3::default();
         collide3(&jobs, &mut batch);
@@ -97,7 +97,7 @@ impl Pair for PosedPair2 {
         let mut jobs = Vec::new();
         for (pair, &hint) in pairs.iter().zip(hints) {
             let Self { shape_a, pose_a, shape_b, pose_b } = pair;
-            jobs.push(Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor });
+            jobs.push(Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor });
         }
         let mut batch = Batch2::default();
         collide2(&jobs, &mut batch);

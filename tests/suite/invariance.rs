@@ -246,6 +246,7 @@ fn hints_and_neighbours_in_a_batch() {
                 pose_b: &case.pose_b,
                 margin: *margin,
                 hint: hint(i),
+                ahead: 0.0,
                 sensor,
             })
             .collect();
@@ -286,6 +287,7 @@ fn hints_and_neighbours_in_a_batch_in_the_plane() {
                 pose_b: &case.pose_b,
                 margin: *margin,
                 hint: hint(i),
+                ahead: 0.0,
                 sensor,
             })
             .collect();

@@ -69,6 +69,7 @@
 //! - [`snapshots`]: a world restored from text has the same outputs, keys and future, bit for bit; no damaged file
 //!   breaks one; machines that predict inputs and roll back end in the same bits
 //! - [`debug_lines`]: lines for a renderer lie on what they show
+//! - [`heeded`]: bodies that let no contact point come closer than its separation pass no ground within a frame
 //! - [`motions`]: what an update reports of this frame's motions: coming contacts, and what bullets run into first
 //! - [`questions`]: overlaps, casts and nearest bodies, against a loop over all bodies, at any time, from any thread
 //! - [`world_threads`]: every output has the same bits at any number of threads
@@ -107,6 +108,7 @@ mod ground_geometry;
 mod ground_questions;
 mod ground_worlds;
 mod hard;
+mod heeded;
 mod hints;
 mod hulls;
 mod index;

@@ -215,7 +215,7 @@ fn memory_changes_nothing_of_many_parts() {
             let (shape_a, pose_a, shape_b, pose_b) = (&a.whole, &a.pose, &b.whole, &b.pose);
             batch.clear();
             collide3(
-                &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.1, hint, sensor: false }],
+                &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.1, hint, ahead: 0.0, sensor: false }],
                 &mut batch,
             );
             let each = piecewise(&both, |pair, _| (pair.overlaps(), pair.manifolds(0.1).len()));

@@ -20,7 +20,7 @@ const SETS: [PairSet; 4] = [PairSet::Rest, PairSet::Touch, PairSet::Mixed, PairS
 
 fn kept(pair: &PosedPair3, margin: f32) -> Option<Persistent3> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, ahead: 0.0, sensor: false };
     let mut batch = Batch3::default();
     collide3(&[job], &mut batch);
     Persistent3::of(&job, &batch.answers[0], &batch.manifolds)
@@ -155,7 +155,7 @@ fn what_is_moved_along_is_true_in_space() {
 
 fn job(pair: &PosedPair3, margin: f32) -> Job3<'_> {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
-    Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false }
+    Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, ahead: 0.0, sensor: false }
 }
 
 /// Contacts that rounding or a drift could decide either way are never kept.
@@ -202,6 +202,7 @@ fn corners_across_a_gap_are_kept_by_what_is_nearest() {
             pose_b: &at_b,
             margin: 0.01,
             hint: Hint::NONE,
+            ahead: 0.0,
             sensor: false,
         };
         let mut batch = Batch2::default();
@@ -390,7 +391,16 @@ fn what_is_moved_along_is_true_in_the_plane() {
                 let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = &pair;
                 let size = f64::from(shape_a.outer_radius() + shape_b.outer_radius());
                 let margin = (0.02 * size) as f32;
-                let job = Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+                let job = Job2 {
+                    shape_a,
+                    pose_a,
+                    shape_b,
+                    pose_b,
+                    margin,
+                    hint: Hint::NONE,
+                    ahead: 0.0,
+                    sensor: false,
+                };
                 let mut batch = Batch2::default();
                 collide2(&[job], &mut batch);
                 let Some(persistent) = Persistent2::of(&job, &batch.answers[0], &batch.manifolds) else {

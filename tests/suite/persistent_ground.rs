@@ -29,7 +29,16 @@ struct Stand {
 impl Stand {
     fn job<'a>(&'a self, poses: &'a [Pose3; 2], margin: f32) -> Job3<'a> {
         let [a, b] = self.ordered([(&self.body, &poses[0]), (&self.ground, &poses[1])]);
-        Job3 { shape_a: a.0, pose_a: a.1, shape_b: b.0, pose_b: b.1, margin, hint: Hint::NONE, sensor: false }
+        Job3 {
+            shape_a: a.0,
+            pose_a: a.1,
+            shape_b: b.0,
+            pose_b: b.1,
+            margin,
+            hint: Hint::NONE,
+            ahead: 0.0,
+            sensor: false,
+        }
     }
 
     fn ordered<T>(&self, [body, ground]: [T; 2]) -> [T; 2] {

@@ -216,7 +216,7 @@ fn the_manifold_of_b_and_a_is_that_of_a_and_b_in_a_mirror() {
 /// A pair's overlap, hint and manifolds.
 fn ask(pair: &PosedPair2, hint: Hint, margin: f32) -> (Option<bool>, Hint, Vec<Manifold2>) {
     let PosedPair2 { shape_a, pose_a, shape_b, pose_b } = pair;
-    let job = Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor: false };
+    let job = Job2 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor: false };
     let mut batch = Batch2::default();
     collide2(&[job], &mut batch);
     let (overlapping, hint) = match batch.answers[0] {

@@ -27,7 +27,7 @@ fn stays_on(manifold: &Manifold3, offset: DVec3) -> [bool; 2] {
 fn check(pair: &PosedPair3, margin: f32) -> (usize, bool) {
     let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = pair;
     let offset = pose_b.position() - pose_a.position();
-    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, ahead: 0.0, sensor: false };
     let mut batch = Batch3::default();
     // Eight jobs take the wide path, which must give the same.
     collide3(&[job; 8], &mut batch);

@@ -87,6 +87,7 @@ fn loaded_shapes_give_equal_answers() {
                 pose_b: &pose_b,
                 margin: 0.2,
                 hint,
+                ahead: 0.0,
                 sensor: false,
             };
             collide3(&[job], &mut batch);
@@ -121,8 +122,16 @@ fn hints_and_manifolds_come_back_and_hints_made_up_do_no_harm() {
         let collided = |hint: Hint| {
             let mut batch = Batch3::default();
             let (shape_a, shape_b) = (&a, &b);
-            let job =
-                Job3 { shape_a, pose_a: &here, shape_b, pose_b: &there, margin: 0.2, hint, sensor: false };
+            let job = Job3 {
+                shape_a,
+                pose_a: &here,
+                shape_b,
+                pose_b: &there,
+                margin: 0.2,
+                hint,
+                ahead: 0.0,
+                sensor: false,
+            };
             collide3(&[job], &mut batch);
             batch
         };
@@ -154,6 +163,7 @@ fn hints_and_manifolds_come_back_and_hints_made_up_do_no_harm() {
                 pose_b: &there,
                 margin: 0.2,
                 hint,
+                ahead: 0.0,
                 sensor: false,
             };
             collide2(&[job], &mut batch);

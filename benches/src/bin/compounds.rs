@@ -91,7 +91,7 @@ fn ask(pairs: &[Posed], poses: &[Pose3], hints: &[Hint], batch: &mut Batch3) {
     let mut jobs = Vec::with_capacity(pairs.len());
     for ((pair, pose_b), &hint) in pairs.iter().zip(poses).zip(hints) {
         let ([shape_a, shape_b], pose_a) = (&pair.shapes, &pair.poses[0]);
-        jobs.push(Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.01, hint, sensor: false });
+        jobs.push(Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.01, hint, ahead: 0.0, sensor: false });
     }
     collide3(&jobs, batch);
 }

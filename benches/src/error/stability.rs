@@ -123,7 +123,7 @@ const POINTS: [(&str, Points); 3] = [
         for PosedPair3 { shape_a, pose_a, shape_b, pose_b } in frames.iter().copied() {
             batch.clear();
             collide3(
-                &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }],
+                &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor: false }],
                 &mut batch,
             );
             let (Answer::Apart { hint: next, .. } | Answer::Contact { hint: next, .. }) =

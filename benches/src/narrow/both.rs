@@ -41,7 +41,7 @@ impl Both {
 
     pub(super) fn job(&self, hint: Hint, sensor: bool) -> Job3<'_> {
         let PosedPair3 { shape_a, pose_a, shape_b, pose_b } = &self.ours;
-        Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor }
+        Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor }
     }
 
     pub(super) fn poses(&self) -> [Pose3; 2] {

@@ -181,7 +181,8 @@ pub struct Slide<K, O, N, P> {
     /// are not reported: to detect them, compare `moved` with the requested displacement.
     /// - ground that deflected a jump;
     /// - ground that broke a fall and was left again within the same displacement;
-    /// - an obstacle that it would have entered by rounding (then it stays where it was free).
+    /// - an obstacle that it would have entered by rounding (then it stays where it was free);
+    /// - what squeezes it, where it could not be freed (then `is_free` is false, and it did not move).
     pub walls: ArrayVec<Obstacle<K, N, P>, 8>,
     /// Whether walls stopped all that was left of the displacement: it stands before a wall, or in a corner.
     pub blocked: bool,

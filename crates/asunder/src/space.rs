@@ -188,9 +188,10 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn least_separation(manifolds: &[Self::Manifold]) -> f32;
 
-    /// A job from two bodies; `margin` is the sum of theirs, and of what their motions may add.
+    /// A job from two bodies; `margin` is the sum of theirs, and of `ahead`, by which their motions may bring them
+    /// nearer.
     #[doc(hidden)]
-    fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Self::Job<'a>;
+    fn job<'a>(bodies: [&'a Collider<Self>; 2], margin_and_ahead: [f32; 2], hint: Hint) -> Self::Job<'a>;
 
     /// Appends the answers to a slice of jobs.
     #[doc(hidden)]
@@ -316,7 +317,7 @@ impl Space for Plane {
         manifolds.iter().fold(f32::INFINITY, |least, manifold| least.min(manifold.separation))
     }
 
-    fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Job2<'a> {
+    fn job<'a>([a, b]: [&'a Collider<Self>; 2], [margin, ahead]: [f32; 2], hint: Hint) -> Job2<'a> {
         Job2 {
             shape_a: &a.shape,
             pose_a: &a.pose,
@@ -324,6 +325,7 @@ impl Space for Plane {
             pose_b: &b.pose,
             margin,
             hint,
+            ahead,
             sensor: a.sensor || b.sensor,
         }
     }
@@ -448,7 +450,7 @@ impl Space for Volume {
         manifolds.iter().fold(f32::INFINITY, |least, manifold| least.min(manifold.separation))
     }
 
-    fn job<'a>(a: &'a Collider<Self>, b: &'a Collider<Self>, margin: f32, hint: Hint) -> Job3<'a> {
+    fn job<'a>([a, b]: [&'a Collider<Self>; 2], [margin, ahead]: [f32; 2], hint: Hint) -> Job3<'a> {
         Job3 {
             shape_a: &a.shape,
             pose_a: &a.pose,
@@ -456,6 +458,7 @@ impl Space for Volume {
             pose_b: &b.pose,
             margin,
             hint,
+            ahead,
             sensor: a.sensor || b.sensor,
         }
     }

@@ -20,6 +20,9 @@ pub struct Job2<'a> {
     pub margin: f32,
     /// The hint of the last answer for this pair, or [`Hint::NONE`].
     pub hint: Hint,
+    /// By how many metres of the margin motions may bring the two nearer: then ground that is within this distance, but
+    /// only further along beyond a bend, has manifolds as well. Zero where nothing moves.
+    pub ahead: f32,
     /// Whether to leave out manifolds.
     pub sensor: bool,
 }
@@ -32,7 +35,8 @@ pub struct Job2<'a> {
 /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
 /// let (pose_a, pose_b) = (Pose2::IDENTITY, Pose2::at(Vec2::new(0.0, 1.5))?);
 /// let job = Job2 {
-///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE,
+///     ahead: 0.0, sensor: false,
 /// };
 /// let mut batch = Batch2::default();
 /// collide2(&[job], &mut batch);
@@ -46,7 +50,7 @@ pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
         let first = batch.manifolds.len() as u32;
         let manifolds = &mut batch.manifolds;
         let (hint, met) = if pair.has_ground() {
-            let overlapping = pair.contact_on_ground(job.margin, manifolds);
+            let overlapping = pair.contact_on_ground([job.margin, job.ahead], manifolds);
             if job.sensor {
                 manifolds.truncate(first as usize);
             }

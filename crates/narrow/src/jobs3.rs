@@ -12,6 +12,7 @@
 use crate::answer::Separation3;
 use crate::batch::Batch3;
 use crate::feature::Hint;
+use crate::ground3::contact_on_ground;
 use crate::pair3::{Pair3, limit_of, reach_of};
 use crate::polyhedron::cuboids::eight::{Eight, LANES};
 use crate::polyhedron::cuboids::placed::Posed;
@@ -34,6 +35,9 @@ pub struct Job3<'a> {
     pub margin: f32,
     /// The hint of the last answer for this pair, or [`Hint::NONE`].
     pub hint: Hint,
+    /// By how many metres of the margin motions may bring the two nearer: then ground that is within this distance, but
+    /// only further along beyond a bend, has manifolds as well. Zero where nothing moves.
+    pub ahead: f32,
     /// Whether to leave out manifolds.
     pub sensor: bool,
 }
@@ -47,7 +51,8 @@ pub struct Job3<'a> {
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at(Vec3::new(0.0, 0.0, 1.5))?);
 /// let job = Job3 {
-///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE,
+///     ahead: 0.0, sensor: false,
 /// };
 /// let mut batch = Batch3::default();
 /// collide3(&[job], &mut batch);
@@ -188,8 +193,14 @@ impl<'a> Job3<'a> {
     /// By itself.
     fn answer(&self, batch: &mut Batch3) {
         let first = batch.manifolds.len() as u32;
-        let wanted = (!self.sensor).then_some(&mut batch.manifolds);
-        let (hint, met) = self.pair().contact(self.margin, self.hint, wanted);
+        let mut wanted = (!self.sensor).then_some(&mut batch.manifolds);
+        let pair = self.pair();
+        if self.ahead > 0.0
+            && let Some(found) = contact_on_ground(&pair, [self.margin, self.ahead], &mut wanted)
+        {
+            return batch.push(Hint::NONE, found.ok_or(0.0), first);
+        }
+        let (hint, met) = pair.contact(self.margin, self.hint, wanted);
         batch.push(hint, met, first);
     }
 

@@ -257,7 +257,7 @@ impl<'a> Pair2<'a> {
 
     pub(crate) fn add_manifolds(&self, margin: f32, manifolds: &mut Vec<Manifold2>) {
         if self.has_ground() {
-            self.contact_on_ground(margin, manifolds);
+            self.contact_on_ground([margin, 0.0], manifolds);
         } else {
             let _ = self.contact(margin, Hint::NONE, true, |manifold| manifolds.push(manifold));
         }

@@ -346,7 +346,7 @@ impl<'a> Pair3<'a> {
         if let Some(found) = self.contact_in_closed_form(margin, manifolds) {
             return (Hint::NONE, found);
         }
-        if let Some(found) = contact_on_ground(self, margin, manifolds) {
+        if let Some(found) = contact_on_ground(self, [margin, 0.0], manifolds) {
             return (Hint::NONE, found.ok_or(0.0));
         }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));

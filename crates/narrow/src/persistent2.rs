@@ -24,7 +24,8 @@ use asunder_geometry::{Pose2, Shape2};
 /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
 /// let (pose_a, pose_b) = (Pose2::IDENTITY, Pose2::at([0.5, 1.875])?);
 /// let job = Job2 {
-///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+///     shape_a: &square, pose_a: &pose_a, shape_b: &square, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE,
+///     ahead: 0.0, sensor: false,
 /// };
 /// let mut batch = Batch2::default();
 /// collide2(&[job], &mut batch);

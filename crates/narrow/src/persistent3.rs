@@ -31,7 +31,8 @@ use solids::Solids;
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at([0.5, 0.25, 1.875])?);
 /// let job = Job3 {
-///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE, sensor: false,
+///     shape_a: &cube, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.0, hint: Hint::NONE,
+///     ahead: 0.0, sensor: false,
 /// };
 /// let mut batch = Batch3::default();
 /// collide3(&[job], &mut batch);
@@ -81,7 +82,8 @@ enum Kind {
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?);
 /// let (pose_a, pose_b) = (Pose3::IDENTITY, Pose3::at([0.1, 0.499, 0.2])?);
 /// let job = Job3 {
-///     shape_a: &floor, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.02, hint: Hint::NONE, sensor: false,
+///     shape_a: &floor, pose_a: &pose_a, shape_b: &cube, pose_b: &pose_b, margin: 0.02, hint: Hint::NONE,
+///     ahead: 0.0, sensor: false,
 /// };
 /// let (mut batch, mut spare) = (Batch3::default(), Spare3::default());
 /// collide3(&[job], &mut batch);

@@ -50,7 +50,7 @@ impl Engine for Volume {
         let margin = a.get_margin() + b.get_margin();
         let (shape_a, pose_a, shape_b, pose_b) = (a.shape(), a.pose(), b.shape(), b.pose());
         let sensor = a.is_sensor() || b.is_sensor();
-        collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor }], &mut batch);
+        collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor }], &mut batch);
         let overlaps = Pair3::new(shape_a, pose_a, shape_b, pose_b).overlaps();
         match batch.answers[0] {
             Answer::Apart { hint, .. } => {

@@ -38,6 +38,7 @@ impl Scene {
             pose_b: &self.ground_pose,
             margin: self.margin,
             hint: Hint::NONE,
+            ahead: 0.0,
             sensor,
         };
         let mut batch = Batch3::default();

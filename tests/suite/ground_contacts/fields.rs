@@ -43,7 +43,7 @@ fn field(random: &mut Random, kind: usize, cells: usize) -> HeightField {
 type Told = (Option<bool>, Vec<Manifold3>);
 
 fn told([shape_a, shape_b]: [&Shape3; 2], [pose_a, pose_b]: [&Pose3; 2], margin: f32) -> Told {
-    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, sensor: false };
+    let job = Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint: Hint::NONE, ahead: 0.0, sensor: false };
     let mut batch = Batch3::default();
     collide3(&[job], &mut batch);
     let contact = match &batch.answers[0] {

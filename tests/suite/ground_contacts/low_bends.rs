@@ -260,6 +260,7 @@ fn what_is_moved_along_over_low_bends_is_within_its_error() {
             pose_b: b.1,
             margin: MARGIN,
             hint: Hint::NONE,
+            ahead: 0.0,
             sensor: false,
         };
         let mut batch = Batch3::default();

@@ -64,6 +64,7 @@ fn in_a_batch_a_pair_says_what_it_says_alone() {
             pose_b: &ground_pose,
             margin: 0.05,
             hint: Hint::NONE,
+            ahead: 0.0,
             sensor: false,
         })
         .collect();

@@ -15,7 +15,10 @@ fn cuboid(half: Vec3) -> Shape3 {
 pub(super) fn frame(case: &Case3, hint: Hint, margin: f32) -> (Manifold3, Hint) {
     let Case3 { shape_a, pose_a, shape_b, pose_b } = case;
     let mut batch = Batch3::default();
-    collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, sensor: false }], &mut batch);
+    collide3(
+        &[Job3 { shape_a, pose_a, shape_b, pose_b, margin, hint, ahead: 0.0, sensor: false }],
+        &mut batch,
+    );
     let Answer::Contact { hint, .. } = batch.answers[0] else { panic!("a contact: {case:?}") };
     (batch.manifolds[0], hint)
 }

@@ -16,7 +16,10 @@ fn hull(points: &[[f32; 3]]) -> Shape3 {
 /// Returns the hint for the next frame, and whether the two overlap.
 fn collide((shape_a, pose_a): Posed, (shape_b, pose_b): Posed, hint: Hint) -> (Hint, bool) {
     let mut batch = Batch3::default();
-    collide3(&[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, sensor: false }], &mut batch);
+    collide3(
+        &[Job3 { shape_a, pose_a, shape_b, pose_b, margin: 0.0, hint, ahead: 0.0, sensor: false }],
+        &mut batch,
+    );
     match batch.answers[0] {
         Answer::Apart { hint, .. } => (hint, false),
         Answer::Contact { hint, overlapping, .. } => (hint, overlapping),

@@ -128,6 +128,7 @@ fn what_is_lost_over_a_small_triangle_says_nothing_of_a_large_one_of_its_patch()
             pose_b: &Pose3::IDENTITY,
             margin: 0.05,
             hint: Hint::NONE,
+            ahead: 0.0,
             sensor: false,
         };
         let mut batch = Batch3::default();

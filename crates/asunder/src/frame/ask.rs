@@ -169,7 +169,8 @@ impl<S: Space> Asker<'_, S> {
                 let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
                 bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
             }
-            let margin = a.margin + b.margin + self.approach(pair, (a, b));
+            let ahead = self.approach(pair, (a, b));
+            let margin = a.margin + b.margin + ahead;
             let kept = self.persistent.get(persistent);
             let to = &mut answered.manifolds;
             let at = to.len() as u32;
@@ -179,7 +180,7 @@ impl<S: Space> Asker<'_, S> {
                 continue;
             }
             *way = Way::Asked;
-            jobs.push(S::job(a, b, margin, hint));
+            jobs.push(S::job([a, b], [margin, ahead], hint));
             if jobs.is_full() {
                 S::collide(&jobs, answered);
                 jobs.clear();

@@ -282,7 +282,7 @@ impl<S: Space> Asker<'_, S> {
                 S::lend(&mut self.spare.lock().unwrap_or_else(PoisonError::into_inner), &mut settled.spare);
             }
         }
-        let job = S::job(a, b, a.margin + b.margin, hint);
+        let job = S::job([a, b], [a.margin + b.margin, 0.0], hint);
         let step = self.odometers[pair.a as usize].step() + self.odometers[pair.b as usize].step();
         S::persistent(&job, answer, &answered.manifolds, step, &mut settled.spare)
     }

@@ -49,7 +49,7 @@ impl core::fmt::Display for ChainError {
                 )
             }
             Self::TooFew { count, needed } => {
-                write!(f, "{count} different vertices are too few: such a chain needs {needed}")
+                write!(f, "too few distinct vertices: {count}, and such a chain needs {needed}")
             }
             Self::TooMany { at_least } => {
                 write!(f, "{at_least} vertices are more than {MAX_CHAIN_VERTICES}: make several chains")

@@ -94,6 +94,21 @@ impl Surface {
         usize::from(!self.is_front)
     }
 
+    /// At which ends the next run rises on the body's side: concave corners.
+    pub(crate) fn concave_ends(&self) -> [bool; 2] {
+        let rises = |end: usize| {
+            let Some((next, _)) = self.neighbours[end] else { return false };
+            let leaving = if end == 1 { next } else { -next };
+            leaving.dot(self.normal) > ALONG_GROUND
+        };
+        [rises(0), rises(1)]
+    }
+
+    /// The ends that a point's foot lies beyond.
+    pub(crate) fn is_beyond(&self, point: DVec2) -> [bool; 2] {
+        [(point - self.ends[0]).dot(self.along) < 0.0, (point - self.ends[1]).dot(self.along) > 0.0]
+    }
+
     /// What a unit direction from the ground to the body is.
     pub(crate) fn region_of(&self, direction: DVec2) -> Region {
         let (lean, height) = (direction.dot(self.along), direction.dot(self.normal));

@@ -22,6 +22,7 @@
 //!   overlap, yes or no: a segment of the part crosses a triangle, or all of it is above; else exactly
 //!   closer points across a gap, along rejected directions                                         (rejected_gaps)
 //!   a smaller separation that many low bends (edges too flat for a normal of their own) may hide  (second_search)
+//!   for a pair with a motion: planes of triangles that are still ahead                            (ahead)
 //!   each group becomes a manifold; its error includes what low bends may hide                     (answer, protrusion)
 //! ```
 //! **No ghosts.** A direction counts only if it lies in the Voronoi region of the triangle's feature, judged with *all*
@@ -89,6 +90,7 @@
 //! count. Cost: linear in the ground.
 
 mod against;
+mod ahead;
 mod answer;
 mod axes;
 mod ball;
@@ -141,25 +143,37 @@ use whole::touching;
 /// Most triangles whose overlap decision waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
 
-/// Whether a body and ground overlap, if they are within the margin; their manifolds go where they are wanted. `None`
-/// where neither shape is ground. Two grounds have no contacts with each other.
+/// Whether a body and ground overlap, if they are within the margin, of which motions may use up some metres; their
+/// manifolds go where they are wanted. `None` where neither shape is ground. Two grounds have no contacts with each other.
 pub(crate) fn contact_on_ground(
     pair: &Pair3,
-    margin: f32,
+    margin_and_ahead: [f32; 2],
     manifolds: &mut impl Room,
 ) -> Option<Option<bool>> {
-    contact_by(pair, margin, manifolds, false)
+    contact_by(pair, margin_and_ahead, manifolds, false)
 }
 
 /// The same, with the fast paths, or by the general path alone.
 #[inline]
-fn contact_by(pair: &Pair3, margin: f32, manifolds: &mut impl Room, is_plain: bool) -> Option<Option<bool>> {
+fn contact_by(
+    pair: &Pair3,
+    [margin, ahead]: [f32; 2],
+    manifolds: &mut impl Room,
+    is_plain: bool,
+) -> Option<Option<bool>> {
     let on = OnGround::of(pair)?;
     if on.body.is_ground() {
         return Some(None);
     }
     let poses = if on.is_b { [&pair.pose_a, &pair.pose_b] } else { [&pair.pose_b, &pair.pose_a] };
-    let query = GroundQuery { on: &on, poses, margin: margin.max(0.0), reach: reach_of(margin), is_plain };
+    let query = GroundQuery {
+        on: &on,
+        poses,
+        margin: margin.max(0.0),
+        reach: reach_of(margin),
+        ahead: ahead.into(),
+        is_plain,
+    };
     let mut found: Option<bool> = None;
     for_parts(on.body, &on.body_basis, |part| {
         if let Some(overlapping) = query.contact_of(part, found == Some(true), manifolds) {
@@ -178,6 +192,8 @@ struct GroundQuery<'a> {
     margin: f32,
     /// The widest gap in which a point is wanted, in metres.
     reach: f64,
+    /// By how much of that motions may bring the body nearer, in metres.
+    ahead: f64,
     /// By the general path alone, which tests compare the fast paths with.
     is_plain: bool,
 }
@@ -272,6 +288,9 @@ impl<'a> GroundQuery<'a> {
         }
         test.conclude(&mut known, is_overlap_known);
         test.bound_least(&mut known, manifolds.is_wanted());
+        if self.ahead > 0.0 && manifolds.is_wanted() {
+            test.look_ahead(&mut known);
+        }
         self.answer(part, &mut known, is_overlap_known, manifolds)
     }
 }
@@ -390,7 +409,8 @@ impl PartTest<'_> {
         let Some(facet) = Facet::facing(ground, number, standing.center) else { return };
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
-        let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
+        let prism =
+            Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None, ahead: None };
         let base = prism.base();
         if !prism.is_lowest_over() {
             let prism = Prism { reach: touching(), ..prism };

@@ -3,6 +3,7 @@
 //! Each segment is a shape like any other, tested by the same kernels; as for compounds, the least separation counts. A
 //! tree of boxes along the chain finds the segments that are near.
 
+mod ahead;
 mod contact;
 mod patches;
 #[cfg(test)]

@@ -194,8 +194,15 @@ impl<'a> Convex<'a> {
     }
 
     /// Contact points over an edge of A, or of B, along its outward normal: see [`over_edge`].
-    pub(crate) fn over_edge(&self, of_b: bool, edge: (usize, DVec2), within: f64) -> ArrayVec<Point, 2> {
+    pub(crate) fn over_edge(
+        &self,
+        of_b: bool,
+        edge: (usize, DVec2),
+        within: f64,
+        open: [bool; 2],
+    ) -> ArrayVec<Point, 2> {
         let sizes = self.measure.sizes();
+        let edge = (edge.0, edge.1, open);
         self.with_outlines(|a, b| over_edge(if of_b { [b, a] } else { [a, b] }, edge, within, sizes, of_b))
     }
 

@@ -292,16 +292,21 @@ fn on_edge(
 }
 
 /// Points of the incident shape's lowest edge that lie over an edge of `outline`, along that edge's outward normal
-/// whatever the best axis is, and no further than `within` metres from it.
+/// whatever the best axis is, and no further than `within` metres from it. Beyond an end that is `open`, the edge
+/// counts as going on.
 pub(crate) fn over_edge(
     [outline, incident]: [&impl Placed; 2],
-    (edge, normal): (usize, DVec2),
+    (edge, normal, open): (usize, DVec2, [bool; 2]),
     within: f64,
     [preference, near]: [f64; 2],
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
-    let ends = [outline.point(edge), outline.point(outline.after(edge))];
-    let height = |point: DVec2| normal.dot(point) - normal.dot(ends[0]).max(normal.dot(ends[1]));
+    let mut reference = Reference::of(outline, edge, normal, is_b);
+    let height = |point: DVec2| normal.dot(point) - (reference.reach - outline.radius());
+    if open != [false; 2] {
+        reference.ends = stretched(reference.ends, open, incident, normal);
+    }
+    let ends = reference.ends;
     let mut deep = f64::NEG_INFINITY;
     if incident.edge_count() > 0 {
         let second = incident.facing_edge(normal);
@@ -311,9 +316,21 @@ pub(crate) fn over_edge(
         deep =
             clipped.map_or(f64::INFINITY, |[one, other]| height(one.at).min(height(other.at)) + preference);
     }
-    let of = if is_b { AxisOf::EdgeB(edge) } else { AxisOf::EdgeA(edge) };
-    let axis = Axis { separation: deep, normal: if is_b { -normal } else { normal }, of };
-    edge_points([outline, incident], edge, &axis, Depths { deep, within, is_cut: true, near }, is_b)
+    points_over(&reference, [outline, incident], edge, Depths { deep, within, is_cut: true, near })
+}
+
+/// The ends of an edge, where it is open moved out past all of the incident shape's lowest edge.
+fn stretched([from, to]: [DVec2; 2], open: [bool; 2], incident: &impl Placed, normal: DVec2) -> [DVec2; 2] {
+    let along = to - from;
+    let first =
+        if incident.edge_count() > 0 { incident.facing_edge(normal) } else { incident.furthest(-normal) };
+    let next = if incident.edge_count() > 0 { incident.after(first) } else { first };
+    let places =
+        [first, next].map(|vertex| along.dot(incident.point(vertex) - from) / along.length_squared());
+    let further = 1.0 + incident.radius() / along.length();
+    let low = if open[0] { places[0].min(places[1]).min(0.0) - further } else { 0.0 };
+    let high = if open[1] { places[0].max(places[1]).max(1.0) + further } else { 1.0 };
+    [from + along * low, from + along * high]
 }
 
 /// Contact points of an edge of `outline` with this outward normal, and the incident shape.
@@ -326,10 +343,21 @@ fn edge_points(
     is_b: bool,
 ) -> ArrayVec<Point, 2> {
     let normal = if is_b { -axis.normal } else { axis.normal };
-    let reference = Reference::of(outline, edge, normal, is_b);
+    points_over(&Reference::of(outline, edge, normal, is_b), [outline, incident], edge, depths)
+}
+
+/// Contact points of the incident shape over a reference edge, which may go on beyond its ends.
+#[inline]
+fn points_over(
+    reference: &Reference,
+    [outline, incident]: [&impl Placed; 2],
+    edge: usize,
+    depths: Depths,
+) -> ArrayVec<Point, 2> {
+    let normal = reference.normal;
     if incident.edge_count() == 0 {
         let deepest = incident.furthest(-normal);
-        return vertex_point(&reference, (edge, deepest), incident, depths).into_iter().collect();
+        return vertex_point(reference, (edge, deepest), incident, depths).into_iter().collect();
     }
     let second = incident.facing_edge(normal);
     let radius = incident.radius();
@@ -375,7 +403,7 @@ fn edge_points(
     if points.len() < 2 {
         let outwards = incident.outward(second) * radius;
         let clipped = clip(&reference.ends, [ends[0] + outwards, ends[1] + outwards], edges, depths.near);
-        add_tilted((&mut points, known), &reference, clipped, depths);
+        add_tilted((&mut points, known), reference, clipped, depths);
     }
     points
 }

@@ -149,7 +149,7 @@ impl Prism<'_> {
                 Cut { half_edge, start, into: outwards.cross(stop - start) }
             })
         };
-        let ends = within(cuts(), DVec3::ZERO, (from, along))?;
+        let ends = within(cuts(), DVec3::ZERO, (from, along), [0.0, 1.0])?;
         let middle = from + along * (0.5 * (ends[0].0 + ends[1].0));
         let mut least = f64::INFINITY;
         for Cut { start, into, .. } in cuts() {

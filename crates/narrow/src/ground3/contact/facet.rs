@@ -458,7 +458,7 @@ pub(super) fn is_same(normal: DVec3, other: DVec3) -> bool {
 }
 
 /// From a half-edge of a triangle towards its third corner, square to the edge.
-fn across(ground: Ground, triangle: u32, edge: usize) -> DVec3 {
+pub(super) fn across(ground: Ground, triangle: u32, edge: usize) -> DVec3 {
     let corners = widened(ground.corners(triangle));
     let from = corners[edge % 3];
     square_to(corners[(edge + 2) % 3] - from, corners[(edge + 1) % 3] - from)

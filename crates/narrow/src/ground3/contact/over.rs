@@ -72,7 +72,7 @@ impl PartTest<'_> {
         Some(self.over(facet))
     }
 
-    fn over(&self, facet: Facet) -> Plane {
+    pub(super) fn over(&self, facet: Facet) -> Plane {
         let (patch, doubt) = (self.query.on.ground.patch(facet.number), self.doubt_over(&facet));
         let extent = self.standing.extent(facet.normal, facet.origin());
         Plane { patch, facet, extent, doubt }
@@ -82,6 +82,6 @@ impl PartTest<'_> {
     pub(super) fn prism_over<'p>(&'p self, plane: &'p Plane) -> Prism<'p> {
         let Plane { facet, extent, doubt, .. } = plane;
         let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
-        Prism { ground, standing, facet, extent, reach, doubt: *doubt, gate: None }
+        Prism { ground, standing, facet, extent, reach, doubt: *doubt, gate: None, ahead: None }
     }
 }

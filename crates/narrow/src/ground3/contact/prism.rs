@@ -72,6 +72,8 @@ pub(super) struct Prism<'p> {
     /// Points deeper than this are left out, and the flag is set, unless the part certainly contains the ground under
     /// them.
     pub(super) gate: Option<(f64, &'p Cell<bool>)>,
+    /// Where only points beyond the triangle are wanted, the sides beyond which it counts as going on: see `ahead`.
+    pub(super) ahead: Option<[bool; 3]>,
 }
 
 impl Incident {
@@ -128,7 +130,10 @@ impl Prism<'_> {
         let beyond = self.reach + (self.doubt + standing.planarity) / -facing;
         let is_far = |corner: DVec3| outwards.dot(over - corner) / facing > beyond;
         let far = [is_far(a), is_far(b), is_far(c)];
-        let is_end = |edge: usize| !(far[edge] && far[(edge + 1) % 3] || facet.goes_on(self.ground, edge));
+        // A side that reaches beyond its corners may do so towards the part.
+        let is_far = |edge: usize| far[edge] && far[(edge + 1) % 3] && self.ahead.is_none();
+        let is_end =
+            |edge: usize| !(self.goes_on_beyond(edge) || is_far(edge) || facet.goes_on(self.ground, edge));
         let ends = [is_end(0), is_end(1), is_end(2)];
         if ends == [false; 3] {
             return false;
@@ -192,7 +197,8 @@ impl Prism<'_> {
             // Nearly parallel lines cross at no certain place; NaN fails the test.
             let do_cross =
                 change * change > LEAST_SINE * LEAST_SINE * into.length_squared() * along.length_squared();
-            if !(do_cross && (0.0..=1.0).contains(&share) && (0.0..=1.0).contains(&place)) {
+            let [low, high] = self.stretch_of(edge);
+            if !(do_cross && (low..=high).contains(&share) && (0.0..=1.0).contains(&place)) {
                 continue;
             }
             let on_body = begin + run * place;
@@ -312,11 +318,11 @@ impl Prism<'_> {
             let rim: &Rim = &rims[edge];
             rim.holds(at) || rim.holds_by(at, FLAT * up) && self.facet.goes_on(self.ground, edge)
         };
-        if !(is_over(0) && is_over(1) && is_over(2)) {
+        if self.ahead.is_none() && !(is_over(0) && is_over(1) && is_over(2)) {
             return false;
         }
         let mut pin = self.pin(at, separation, Feature::Vertex(vertex as u32));
-        if rims[0].is_beyond(at) || rims[1].is_beyond(at) || rims[2].is_beyond(at) {
+        if self.ahead.is_none() && (rims[0].is_beyond(at) || rims[1].is_beyond(at) || rims[2].is_beyond(at)) {
             pin.doubt += self.overhang(&pin, up);
         }
         self.add_pin(pin, base, groups)
@@ -402,6 +408,9 @@ impl Prism<'_> {
             is_left_out.set(true);
             return false;
         }
+        if !self.is_wanted(&pin) {
+            return false;
+        }
         groups.add(base, pin);
         true
     }
@@ -409,7 +418,7 @@ impl Prism<'_> {
     /// The interval of a side that lies over the part's face, which has these sides.
     fn span(&self, cuts: impl Iterator<Item = Cut>, outwards: DVec3, edge: usize) -> Option<Span> {
         let (from, along) = self.facet.edge(edge);
-        within(cuts, outwards * self.standing.radius, (from, along))
+        within(cuts, outwards * self.standing.radius, (from, along), self.stretch_of(edge))
     }
 
     /// The same for a segment (the core of a capsule): where it crosses the side, if it does. Both ends are this one
@@ -427,11 +436,13 @@ impl Prism<'_> {
         }
         let crossing = begin + (end - begin) * (out / (out - over));
         let share = along.dot(crossing - from) / along.length_squared();
-        (0.0..=1.0).contains(&share).then_some([(share, Some(0)); 2])
+        let [low, high] = self.stretch_of(edge);
+        (low..=high).contains(&share).then_some([(share, Some(0)); 2])
     }
 }
 
-/// The interval of a line that is on the inner side of all cuts, once these are shifted.
+/// The interval of a line, between two fractions of its length, that is on the inner side of all cuts, once these are
+/// shifted.
 ///
 /// Cyrus and Beck, "Generalized two- and three-dimensional clipping" (1978).
 #[inline]
@@ -439,8 +450,9 @@ pub(super) fn within(
     cuts: impl Iterator<Item = Cut>,
     shift: DVec3,
     (from, along): (DVec3, DVec3),
+    [low, high]: [f64; 2],
 ) -> Option<Span> {
-    let (mut enters, mut leaves) = ((0.0, None), (1.0, None));
+    let (mut enters, mut leaves) = ((low, None), (high, None));
     for Cut { half_edge, start, into } in cuts {
         let (inside, change) = (into.dot(from - start - shift), into.dot(along));
         if change == 0.0 {

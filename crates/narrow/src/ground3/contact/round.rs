@@ -35,10 +35,10 @@ const LOST: f64 = 1e-6;
 /// A sphere, in the ground's axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Round {
-    center: DVec3,
-    radius: f64,
+    pub(super) center: DVec3,
+    pub(super) radius: f64,
     /// The summed lengths that enter a coordinate, in metres.
-    lengths: f64,
+    pub(super) lengths: f64,
     /// The widest gap in which a point is wanted, in metres.
     reach: f64,
 }
@@ -53,7 +53,7 @@ impl Round {
 
     /// Its box grown by the reach, rounded outwards.
     #[inline]
-    fn bounds(&self) -> Aabb3 {
+    pub(super) fn bounds(&self) -> Aabb3 {
         grown_around([self.center; 2], self.radius + self.reach, self.lengths)
     }
 
@@ -78,6 +78,9 @@ impl Round {
             return None;
         }
         known.record_rejected_gap(slack);
+        if query.ahead > 0.0 && manifolds.is_wanted() {
+            self.look_ahead(query, &mut known);
+        }
         Some(query.answer(part, &mut known, is_overlap_known, manifolds))
     }
 

@@ -212,7 +212,8 @@ impl PartTest<'_> {
         let facet = Facet::facing(ground, near.number, standing.center)?;
         let extent = standing.extent(facet.normal, facet.origin());
         let doubt = self.doubt_over(&facet);
-        let prism = Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None };
+        let prism =
+            Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None, ahead: None };
         let least = prism.least_of_low(Some(&self.incident_to(facet.normal, known)));
         Some((facet, least))
     }

@@ -45,7 +45,7 @@ impl Numbers {
 
 fn contacts_of(pair: &Pair3, is_plain: bool) -> (Option<bool>, Vec<Manifold3>) {
     let mut manifolds = Vec::new();
-    let found = contact_by(pair, 0.02, &mut Some(&mut manifolds), is_plain);
+    let found = contact_by(pair, [0.02, 0.0], &mut Some(&mut manifolds), is_plain);
     (found.expect("one is ground"), manifolds)
 }
 

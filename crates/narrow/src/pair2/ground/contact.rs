@@ -7,6 +7,7 @@
 //!     their normal is that of a corner of the run: take their points
 //!     it is the run's own, or the surface has none such: take what of the part lies over the run  (over_edge)
 //!     it is a neighbour's, beyond a sharp corner: take nothing, unless no other point touches
+//!   for a pair with a motion: the lines of runs that are still ahead                                (ahead)
 //!   one manifold for each normal                                                                  (patches)
 //! ```
 //! Testing a run in place of its segments keeps points and their feature ids as a body slides. The segments, which lie
@@ -28,15 +29,17 @@ use asunder_geometry::{Chain, Run, Shape2};
 use core::ops::ControlFlow;
 
 /// A convex part, and the chain that it may stand on.
-struct Standing<'p> {
-    pair: &'p Pair2<'p>,
-    chain: &'p Chain,
+pub(super) struct Standing<'p> {
+    pub(super) pair: &'p Pair2<'p>,
+    pub(super) chain: &'p Chain,
     /// Which of the pair the chain is: 0 is A.
-    side: usize,
-    part: Part<'p>,
+    pub(super) side: usize,
+    pub(super) part: Part<'p>,
     /// Points within this many metres are wanted; and the widest separation that rounds to so much.
     margin: f32,
     limit: f64,
+    /// By how much of that a motion may bring the part nearer, in metres.
+    pub(super) ahead: f64,
 }
 
 /// Whether a run's segments overlap the part, as far as it is known.
@@ -49,8 +52,12 @@ enum Overlap {
 
 impl Pair2<'_> {
     /// Whether a body overlaps ground that it sees; `None` if they are further apart than the margin. Adds manifolds to
-    /// a list.
-    pub(crate) fn contact_on_ground(&self, margin: f32, manifolds: &mut Vec<Manifold2>) -> Option<bool> {
+    /// a list. Of the margin, motions may use up `ahead` metres.
+    pub(crate) fn contact_on_ground(
+        &self,
+        [margin, ahead]: [f32; 2],
+        manifolds: &mut Vec<Manifold2>,
+    ) -> Option<bool> {
         let (side, chain, shape, turn) = match (self.shape_a, self.shape_b) {
             // Two grounds have no contacts with each other.
             (Shape2::Chain(_), Shape2::Chain(_)) => return None,
@@ -62,7 +69,7 @@ impl Pair2<'_> {
         let mut touch: Option<bool> = None;
         for_parts(shape, turn, |part| {
             let limit = f64::from(margin.next_up());
-            let standing = Standing { pair: self, chain, side, part, margin, limit };
+            let standing = Standing { pair: self, chain, side, part, margin, limit, ahead: ahead.into() };
             if let Some(overlapping) = standing.contact(manifolds) {
                 touch = Some(touch.unwrap_or(false) || overlapping);
             }
@@ -76,7 +83,7 @@ impl Pair2<'_> {
     /// The same, with the deepest of the manifolds; of equals, the first.
     pub(crate) fn deepest_on_ground(&self, margin: f32) -> (Option<bool>, Option<Manifold2>) {
         with_list(&MANIFOLDS2, |list| {
-            let touch = self.contact_on_ground(margin, list);
+            let touch = self.contact_on_ground([margin, 0.0], list);
             let deepest =
                 list.iter().reduce(|best, next| if next.separation < best.separation { next } else { best });
             (touch, deepest.cloned())
@@ -107,11 +114,14 @@ impl Standing<'_> {
             };
             ControlFlow::Continue(())
         });
+        if self.ahead > 0.0 {
+            self.look_ahead(&zone, &mut patches);
+        }
         patches.finish(overlapping, self.margin).then_some(overlapping)
     }
 
     /// Which boxes may hold segments of a run within the limit.
-    fn is_near<'z>(&self, zone: &'z Zone) -> impl Fn(&asunder_geometry::Aabb2) -> bool + 'z {
+    pub(super) fn is_near<'z>(&self, zone: &'z Zone) -> impl Fn(&asunder_geometry::Aabb2) -> bool + 'z {
         // How far segments may lie off their run.
         let limit = self.limit;
         let uneven = 4.0 * STRAIGHT * (zone.reach() + limit);
@@ -147,17 +157,22 @@ impl Standing<'_> {
         met.is_break()
     }
 
-    /// How the part touches a run.
-    fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
-        count_step();
+    /// A run as a surface, and the part's centre; `None` where the part does not see it.
+    pub(super) fn surface(&self, run: &Run) -> Option<(Surface, Option<DVec2>)> {
         let pair = self.pair;
         let [chain_at, body_at] =
             if self.side == 0 { [DVec2::ZERO, pair.between] } else { [pair.between, DVec2::ZERO] };
         let turn = if self.side == 0 { &pair.turn_a } else { &pair.turn_b };
         let center = self.part.middle(body_at);
-        let Some(surface) = Surface::new(self.chain, run, (turn, chain_at), center) else {
-            return Overlap::Decided(false);
-        };
+        Surface::new(self.chain, run, (turn, chain_at), center).map(|surface| (surface, center))
+    }
+
+    /// How the part touches a run.
+    fn on_run(&self, run: &Run, patches: &mut Patches) -> Overlap {
+        count_step();
+        let pair = self.pair;
+        let Some((surface, center)) = self.surface(run) else { return Overlap::Decided(false) };
+        let turn = if self.side == 0 { &pair.turn_a } else { &pair.turn_b };
         let Some(chord) = self.chain.chord(run).map(Shape2::Segment) else { return Overlap::Decided(false) };
         let parts = pair.ordered(self.side, Part::segment(run.first(), &chord, turn), self.part);
         let limit = self.limit + run.unevenness();
@@ -178,7 +193,8 @@ impl Standing<'_> {
             Region::Beyond(_) => (None, kernels()),
             Region::Face | Region::Inner => {
                 let edge = (surface.edge(), surface.normal);
-                let points: ArrayVec<Point, 2> = parts.convex.over_edge(self.side == 1, edge, limit);
+                let points: ArrayVec<Point, 2> =
+                    parts.convex.over_edge(self.side == 1, edge, limit, [false; 2]);
                 let normal = if self.side == 0 { surface.normal } else { -surface.normal };
                 let over = patch(normal, &points).map(Patch::deep_by_its_points);
                 let over = over.filter(|over| {

@@ -79,6 +79,13 @@ impl Patch {
         self.0.separation < -self.0.error
     }
 
+    /// The same, with an error that covers how far away its points are, if none of them is nearer than this.
+    pub(super) fn no_nearer_than(mut self, least: f32) -> Option<Self> {
+        let manifold = &mut self.0;
+        manifold.error = (manifold.error + f32::EPSILON * manifold.separation).next_up();
+        (manifold.separation > 0.0 && manifold.separation >= least).then_some(self)
+    }
+
     /// The points within a margin, if there are any.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
         let mut manifold = self.0;
@@ -113,6 +120,11 @@ impl<'m> Patches<'m> {
             None => self.manifolds.push(next),
             Some(known) => merge(known, &next, self.side, preference as f32),
         }
+    }
+
+    /// The least separation of the part's manifolds; infinite without any.
+    pub(super) fn least(&self) -> f32 {
+        self.manifolds[self.first..].iter().fold(f32::INFINITY, |least, own| least.min(own.separation))
     }
 
     /// Keeps a patch, the deepest of such, in case no other one touches.

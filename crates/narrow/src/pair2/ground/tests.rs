@@ -33,6 +33,7 @@ fn a_million_segments_cost_what_a_thousand_do() {
                     pose_b: &pose,
                     margin: 0.02,
                     hint: Hint::NONE,
+                    ahead: 0.0,
                     sensor: false,
                 };
                 let mut batch = Batch2::default();
