@@ -167,6 +167,10 @@ impl Persistent3 {
         if Ground::of(job.shape_a).is_none() && Ground::of(job.shape_b).is_none() {
             return Solids::of(job, answer, manifolds).map(|kept| Self(Kind::Solids(kept)));
         }
+        // Bodies in motion do not stay.
+        if job.ahead > 0.0 {
+            return None;
+        }
         let mut memory = spare.0.pop().unwrap_or_default();
         let kept = Grounded::of(job, answer, manifolds, &mut memory);
         if kept.is_none() {

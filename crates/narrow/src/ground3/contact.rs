@@ -171,7 +171,7 @@ fn contact_by(
         poses,
         margin: margin.max(0.0),
         reach: reach_of(margin),
-        ahead: ahead.into(),
+        ahead: ahead.min(margin).into(),
         is_plain,
     };
     let mut found: Option<bool> = None;

@@ -69,7 +69,8 @@ impl Pair2<'_> {
         let mut touch: Option<bool> = None;
         for_parts(shape, turn, |part| {
             let limit = f64::from(margin.next_up());
-            let standing = Standing { pair: self, chain, side, part, margin, limit, ahead: ahead.into() };
+            let standing =
+                Standing { pair: self, chain, side, part, margin, limit, ahead: ahead.min(margin).into() };
             if let Some(overlapping) = standing.contact(manifolds) {
                 touch = Some(touch.unwrap_or(false) || overlapping);
             }
