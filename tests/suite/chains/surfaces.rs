@@ -280,6 +280,43 @@ fn from_core(core: &[Vec2], point: DVec2) -> (f64, DVec2) {
     (far(&foot), foot)
 }
 
+/// Symptom: where the corner of a tilted body was past the end of a chain, or past a corner of it, by less than a
+/// millionth of the gap, the reported separation was too great, by up to 1e-5 of the body's radius, though the error
+/// was that of rounding. Cause: the normal counts there as that of the segment, and the separation as that of the
+/// points over the segment, but the body's corner is not over it.
+#[test]
+fn what_is_past_an_end_by_next_to_nothing_is_as_far_from_it_as_its_corner() {
+    let tip = Polygon::new(&[Vec2::ZERO, Vec2::new(0.02, 1.0), Vec2::new(-0.02, 1.0)]).unwrap();
+    let bodies: [Shape2; 3] =
+        [tip.clone().into(), tip.rounded(0.01).unwrap().into(), Polygon::regular(0.5, 3).unwrap().into()];
+    let flat = [Vec2::ZERO, Vec2::X * 4.0];
+    let grounds = [
+        Chain::open(flat),
+        Chain::open(flat.into_iter().chain([Vec2::new(4.0, -3.0)])),
+        Chain::open(flat.into_iter().chain([Vec2::new(5.0, -0.01)])),
+    ];
+    for chain in grounds {
+        let ground = Shape2::from(chain.unwrap());
+        for (i, body) in bodies.iter().enumerate() {
+            for k in 0..400 {
+                let gap = [1e-4, 1e-2, 0.3][k % 3] * (0.5 + noise(k));
+                let past =
+                    gap * 10_f64.powf(-4.0 - 5.0 * noise(k + 400)) * if k % 5 == 0 { -1.0 } else { 1.0 };
+                let tilted = Pose2::new([0.0, 0.0], turned(towards(0.2 * noise(k + 800) - 0.1))).unwrap();
+                let lowest = tilted.turn(body.support(tilted.turn_back(DVec2::NEG_Y)).unwrap());
+                let pose = tilted.with_position(DVec2::new(4.0 + past, gap) - lowest).unwrap();
+                let pair = Pair2::new(&ground, &Pose2::IDENTITY, body, &pose);
+                let truth = pair.separation(1.0).measured().unwrap();
+                let found =
+                    pair.manifolds(0.6).into_iter().min_by(|a, b| a.separation.total_cmp(&b.separation));
+                let found = found.unwrap();
+                let off = (found.separation - truth.separation).abs();
+                assert!(off <= found.error + truth.error, "{i} {gap} {past}: {truth:?} {found:?}");
+            }
+        }
+    }
+}
+
 /// Symptom: where a capsule was pushed out of a hollow along the normal of a segment that it is tilted to, its anchor
 /// lay up to 0.98 of its radius inside it, and its reported depth was less than the capsule's depth there by as much.
 /// Cause: where the end of the segment clips a side of the core, the clipped point was moved out by the radius along

@@ -204,6 +204,10 @@ impl Standing<'_> {
                 });
                 // At a corner that is almost straight, rounding may find nothing over either face.
                 let is_face = region == Region::Face;
+                // A body's corner may be past the run's end by next to nothing. What is clipped there lies further up
+                // the body's edge, by more the steeper that is.
+                let is_missed = |over: &Patch| is_face && is_apart(&near, run) && over.is_above(&near);
+                let over = over.filter(|over| !is_missed(over));
                 if is_face { (over.or_else(kernels), None) } else { (over, kernels()) }
             }
         };

@@ -86,6 +86,11 @@ impl Patch {
         (manifold.separation > 0.0 && manifold.separation >= least).then_some(self)
     }
 
+    /// Whether its separation is greater than the kernel's, by more than the error.
+    pub(super) fn is_above(&self, near: &Near) -> bool {
+        self.0.separation > near.separation + self.0.error
+    }
+
     /// The points within a margin, if there are any.
     pub(super) fn within(&self, margin: f32) -> Option<Self> {
         let mut manifold = self.0;
