@@ -91,7 +91,6 @@ struct Few<'a> {
     arcs: OnceCell<[EdgeArc; 3]>,
     center: Vec3,
     inner_radius: f32,
-    inner_arm: Vec3,
     extent: f32,
     topology: &'a Topology,
 }
@@ -255,24 +254,6 @@ impl<'a> Core3<'a> {
         }
     }
 
-    /// Half of a segment about the centre, in metres, on which a ball of [`ARM_SHARE`](crate::tolerance::ARM_SHARE) of
-    /// the inner radius stays inside the core; zero if there is none. A plank, for example, has room for such balls
-    /// beside the one in its middle.
-    ///
-    /// ```
-    /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
-    /// let plank = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.2, 2.0, 0.1))?);
-    /// assert!((plank.core().inner_arm() - Vec3::new(0.0, 1.9, 0.0)).length() < 1e-5);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[inline]
-    pub fn inner_arm(&self) -> Vec3 {
-        match &self.0 {
-            Kept::ByHull(hull) => hull.core_inner_arm(),
-            Kept::Here(few) => few.inner_arm,
-        }
-    }
-
     /// The greatest absolute coordinate of any vertex, in metres: rounding errors of products with vertices are
     /// relative to it.
     #[inline]
@@ -334,7 +315,6 @@ impl<'a> Few<'a> {
                     arcs: OnceCell::new(),
                     center: Vec3::ZERO,
                     inner_radius: half.min_element(),
-                    inner_arm: longest_arm(half),
                     extent: half.max_element(),
                     topology: Cuboid::topology(),
                 }
@@ -383,7 +363,6 @@ impl<'a> Few<'a> {
             arcs: OnceCell::new(),
             center: shape.center(),
             inner_radius: beside_center(shape),
-            inner_arm: Vec3::ZERO,
             extent: octets::extent(vertices),
             topology,
         }
@@ -410,22 +389,9 @@ impl<'a> Few<'a> {
             arcs: OnceCell::new(),
             center: shape.center(),
             inner_radius: beside_center(shape),
-            inner_arm: Vec3::ZERO,
             extent: octets::extent(&vertices[..3]),
             topology,
         }
-    }
-}
-
-/// How far the inscribed ball of a cuboid can be moved along its longest axis.
-fn longest_arm(half: Vec3) -> Vec3 {
-    let (longest, room) = (half.max_element(), half.max_element() - half.min_element());
-    if half.x == longest {
-        Vec3::X * room
-    } else if half.y == longest {
-        Vec3::Y * room
-    } else {
-        Vec3::Z * room
     }
 }
 

@@ -110,13 +110,6 @@ pub const NEXT_THICKNESS: f64 = 1e-4;
 /// before they are rejected.
 pub const STANDS_OUT: f64 = 64.0 * COPLANAR;
 
-/// Share of the inner radius of the ball that fits everywhere on a core's arm, a segment about the centre.
-///
-/// A face that is parallel to the arm up to rounding would leave the full ball no room to move, but a slightly smaller
-/// one all the room there is. Only shortcuts depend on it: a smaller value proves fewer deep overlaps, a larger one
-/// fewer of hulls that are long only nearly along an edge.
-pub const ARM_SHARE: f64 = 63.0 / 64.0;
-
 /// Share of a hull's half diagonal up to which a stored hull's vertices may lie beyond one of its faces: what
 /// merging at [`COPLANAR`] may leave, with room.
 ///

@@ -290,7 +290,6 @@ fn measured(vertices: &[Vec3], faces: &Loops, normals: &[DVec3]) -> Result<HullD
         center,
         outer_radius,
         inner_radius,
-        inner_arm: Vec3::ZERO,
         planarity_error: round_up(planarity),
         error: 0.0,
     })

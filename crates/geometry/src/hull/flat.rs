@@ -117,7 +117,6 @@ impl Hull {
             center,
             outer_radius: outer_radius.max(MIN_RADIUS),
             inner_radius: 0.0,
-            inner_arm: Vec3::ZERO,
             planarity_error: 0.0,
             error: 0.0,
         };

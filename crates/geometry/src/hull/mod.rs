@@ -1,6 +1,5 @@
 //! Convex hulls of points in space.
 
-mod arm;
 mod build;
 mod check;
 mod cloud;
@@ -65,8 +64,6 @@ struct HullData {
     outer_radius: f32,
     /// If rounding put the centre beside a hull without volume: minus its distance from the hull.
     inner_radius: f32,
-    /// Half of a segment about the centre along which a slightly smaller ball can be moved inside: see `ARM_SHARE`.
-    inner_arm: Vec3,
     planarity_error: f32,
     error: f32,
 }
@@ -140,12 +137,6 @@ impl Hull {
     #[inline]
     pub(crate) fn core_inner_radius(&self) -> f32 {
         self.data.inner_radius
-    }
-
-    /// Half of a segment about the centre along which a slightly smaller ball can be moved inside the core.
-    #[inline]
-    pub(crate) fn core_inner_arm(&self) -> Vec3 {
-        self.data.inner_arm
     }
 
     /// The centre of both radii: the centre of volume, area or length, rounded to f32.
@@ -238,7 +229,6 @@ impl HullData {
     /// Adds the data that kernels load, once vertices and faces have their final order.
     fn finished(mut self) -> Self {
         self.octets = Octets::new(&self.vertices, &self.normals, &self.topology);
-        self.inner_arm = self.longest_arm();
         self
     }
 }

@@ -30,8 +30,6 @@ pub(crate) struct Solid<'a> {
     /// Radius of a sphere about the centre that lies inside the core, in metres; negative where the centre is outside,
     /// by at least its distance.
     pub(super) inner_radius: f64,
-    /// Half of a segment about the centre on which a ball of nearly that radius stays inside, in the shape's own axes.
-    inner_arm: Vec3,
     /// How far the shape reaches beyond this core. Axes and distances leave it out; contact points lie on the shape.
     pub(crate) radius: f64,
 }
@@ -61,7 +59,6 @@ impl<'a> Solid<'a> {
             extent: core.extent(),
             center: core.center().as_dvec3(),
             inner_radius: f64::from(core.inner_radius()),
-            inner_arm: core.inner_arm(),
             radius,
         }
     }
@@ -327,13 +324,6 @@ impl<'a> Solid<'a> {
     #[inline]
     pub(crate) const fn inner_radius(&self) -> f64 {
         self.inner_radius
-    }
-
-    /// Half of a segment about the centre on which a ball of [`ARM_SHARE`](asunder_geometry::tolerance::ARM_SHARE) of
-    /// the inner radius stays inside, in the frame of the pair.
-    #[inline]
-    pub(super) fn inner_arm(&self) -> DVec3 {
-        self.forth(self.inner_arm.as_dvec3())
     }
 
     /// A point of the frame in the shape's own axes.

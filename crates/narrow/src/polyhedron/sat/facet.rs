@@ -9,7 +9,7 @@
 //! disc   about the foot of the origin on T, of radius p: in a direction at angle t to the axis, M reaches at least
 //!        d cos t + p sin t, which is d or more as long as tan (t / 2) <= p / d
 //! ball   about the difference D of the centres, of radius r = the sum of both inner radii: M reaches at least D.n + r
-//!        along n; or about the difference of two points to which the centres move along the arms inside their solids
+//!        along n
 //! proof  the ball reaches d in every direction in which the disc does not
 //! ```
 //! Then the ball of radius d about the origin lies inside M, and touches its surface at the foot. Nearly all pairs
@@ -18,10 +18,10 @@
 //! "Proximity queries and penetration depth computation on 3D game objects", GDC 2001), with a polytope that needs no
 //! expanding. Where the ball does not suffice, single vertices of M may (`cover`).
 //!
-//! In long, thin solids the ball in the middle covers little, but there are others along the arm; and between solids
-//! that stand upright side by side, whole edges are furthest (`level`). A frame of a crowd, 970 pairs of limbs and
-//! trunks: 430 needed all axes, now 116; 290 the distance iteration, now 110; 1.34 to 1.46 times as fast (AMD EPYC, Zen
-//! 4, 2026-11-23).
+//! Between solids that stand upright side by side, whole edges are furthest (`level`). In long, thin solids the ball in
+//! the middle covers little. Tried: others beside it, along an arm that was kept with each hull, which made a frame of a
+//! crowd faster before there was `cover`. Since then it takes as many instructions without them, and long rods and
+//! planks that slide on each other 1 to 4 % more (callgrind, 2026-11-29).
 
 use super::super::solid::Solid;
 use super::cover::{Cover, Facet, cover};
@@ -29,7 +29,6 @@ use super::level::Level;
 use super::{Axis, AxisOf};
 use crate::precision::Precision;
 use asunder_geometry::glam::DVec3;
-use asunder_geometry::tolerance::ARM_SHARE;
 
 /// What is known of an axis along which two solids overlap.
 pub(super) enum Near {
@@ -127,29 +126,10 @@ fn in_parallelogram([(from_a, to_a), (from_b, to_b)]: [(DVec3, DVec3); 2], norma
     if one < other { one } else { other }
 }
 
-/// Whether a ball inside both solids' difference reaches `depth` in every direction in which a disc of radius `disc`
-/// does not: the ball about the difference of their centres, or one moved along the arms until it lies as straight
-/// behind the disc as they allow.
+/// Whether the ball about the difference of the solids' centres reaches `depth` in every direction in which a disc of
+/// radius `disc` does not.
 fn does_ball_cover(a: &Solid, b: &Solid, normal: DVec3, (depth, disc): (f64, f64)) -> bool {
-    let mut center = a.center() - b.center();
-    if does_cover((center, a.inner_radius + b.inner_radius), normal, (depth, disc)) {
-        return true;
-    }
-    let aside = |v: DVec3| v - normal * normal.dot(v);
-    for arm in [a.inner_arm(), b.inner_arm()] {
-        let (away, across) = (aside(center), aside(arm));
-        let square = across.length_squared();
-        if square > 0.0 {
-            center -= arm * (away.dot(across) / square).clamp(-1.0, 1.0);
-        }
-    }
-    // Negative where a solid holds no ball.
-    let share = |radius: f64| radius.min(ARM_SHARE * radius);
-    does_cover((center, share(a.inner_radius) + share(b.inner_radius)), normal, (depth, disc))
-}
-
-/// [`does_ball_cover`] for one ball.
-fn does_cover((center, radius): (DVec3, f64), normal: DVec3, (depth, disc): (f64, f64)) -> bool {
+    let (center, radius) = (a.center() - b.center(), a.inner_radius + b.inner_radius);
     let spare = radius - depth;
     let along = center.dot(normal);
     let square = center.length_squared();
