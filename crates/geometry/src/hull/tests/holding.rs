@@ -4,7 +4,7 @@ use super::clouds::{Random, nasty};
 use crate::hull::Hull;
 use crate::hull::predicate::outside;
 use crate::hull::wrap::enumerate_facets;
-use glam::{DVec3, Quat, Vec3};
+use glam::{DVec3, Vec3};
 
 #[test]
 fn faces_tell_what_all_triangles_tell() {
