@@ -13,7 +13,7 @@ pub(crate) fn copy<S: Space>(from: &World<S>, to: &mut World<S>) {
     } but { scratch });
     copied!(&from.scratch => to.scratch, of Scratch { sweep } but {
         pairs, spare, is_settled, chunk_ends, settled, last_candidates, last_records, last_answered, ended, editing, of_bullets, touches,
-        found, #[cfg(feature = "parallel")] impacts, ends, seconds
+        timed_hits, #[cfg(feature = "parallel")] impacts, ends, seconds
     });
     to.scratch.is_settled = false;
 }

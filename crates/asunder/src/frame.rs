@@ -29,7 +29,7 @@ mod sweep;
 mod touches;
 
 pub(crate) use ask::manifolds_at;
-pub(crate) use impacts::Found;
+pub(crate) use impacts::TimedHit;
 pub(crate) use settle::Settled;
 pub(crate) use touches::Touches;
 

@@ -3,7 +3,7 @@
 use crate::collider::{Collider, Tag};
 use crate::contact::{Contact, Record};
 use crate::event::Event;
-use crate::frame::{Found, Settled, Touches, manifolds_at};
+use crate::frame::{Settled, TimedHit, Touches, manifolds_at};
 use crate::hooks::Edited;
 use crate::motion::{Hit, Motions};
 use crate::odometer::Odometer;
@@ -122,9 +122,9 @@ pub(crate) struct Scratch<S: Space> {
     pub(crate) of_bullets: Vec<(S::Key, S::Key)>,
     /// What bullets touch, by their slots.
     pub(crate) touches: Touches<S>,
-    pub(crate) found: Vec<Found<S>>,
+    pub(crate) timed_hits: Vec<TimedHit<S>>,
     #[cfg(feature = "parallel")]
-    pub(crate) impacts: Vec<Option<Found<S>>>,
+    pub(crate) impacts: Vec<Option<TimedHit<S>>>,
     /// For the index by second body: where each slot's records end; or second bodies with record numbers, to be sorted.
     pub(crate) ends: Vec<u32>,
     pub(crate) seconds: Vec<(u32, u32)>,
@@ -146,7 +146,7 @@ impl<S: Space> Scratch<S> {
             editing: Vec::new(),
             of_bullets: Vec::new(),
             touches: Touches::NONE,
-            found: Vec::new(),
+            timed_hits: Vec::new(),
             #[cfg(feature = "parallel")]
             impacts: Vec::new(),
             ends: Vec::new(),
