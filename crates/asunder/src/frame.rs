@@ -18,7 +18,7 @@
 //!
 //! No stage walks a hash map, calls std's trigonometry or fuses a multiplication with an addition.
 
-mod ask;
+mod chunk;
 mod collide;
 mod impacts;
 mod merge;
@@ -28,7 +28,7 @@ mod settle;
 mod sweep;
 mod touches;
 
-pub(crate) use ask::manifolds_at;
+pub(crate) use chunk::manifolds_at;
 pub(crate) use impacts::TimedHit;
 pub(crate) use settle::Settled;
 pub(crate) use touches::Touches;
@@ -93,7 +93,7 @@ pub(crate) fn advance<S: Space>(world: &mut World<S>, hooks: &Hooks<'_, S>) {
 }
 
 /// Runs both closures, on two threads if possible.
-fn both(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
     #[cfg(feature = "parallel")]
     rayon::join(one, other);
     #[cfg(not(feature = "parallel"))]

@@ -19,16 +19,16 @@ const MANY: usize = 96;
 /// Fewest pairs in a chunk, except the last, where hardly any needs the narrow phase.
 const FEW: usize = 256;
 
-/// Most pairs in a chunk, for so many pairs in all, when `asked` of last update's went through the narrow phase: enough
-/// chunks to share out, and no more. Each has lists of its own, and begins with waiting for each of them: some 3 us
-/// (AMD EPYC, Zen 4, 2026-11-23).
+/// Most pairs in a chunk, for so many pairs in all, when `computed` of last update's went through the narrow phase:
+/// enough chunks to share out, and no more. Each has lists of its own, and begins with waiting for each of them: some 3
+/// us (AMD EPYC, Zen 4, 2026-11-23).
 ///
 /// The narrow phase takes some ten times as long as all else: a crowd has 1,300 pairs, all of which need it, and in
 /// chunks of 256 they took 16 threads 1.0 ms, of 128 0.7 and of 64 0.6 (Intel Xeon, family 6 model 207, 16 virtual
 /// cores, 2026-11-26); where few need it, 64 pairs are not worth a chunk (boxes at rest 8 % slower). Bodies that come
 /// to rest leave the lists of both sizes behind. Never by the number of threads.
-pub(crate) fn chunk_of(pairs: usize, asked: usize) -> usize {
-    let few = if asked > pairs / 4 { FEW / 2 } else { FEW };
+pub(crate) fn chunk_of(pairs: usize, computed: usize) -> usize {
+    let few = if computed > pairs / 4 { FEW / 2 } else { FEW };
     pairs.div_ceil(MANY).next_multiple_of(few).clamp(few, CHUNK)
 }
 

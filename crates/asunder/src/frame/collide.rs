@@ -4,7 +4,7 @@
 //! cut the pairs into chunks: where they were cut last time, as long as none has grown too large
 //! chunks with the same pairs as then, none of whose bodies moved, keep their lists
 //! for each other chunk, in parallel:
-//!   each pair is carried over, moved along, or passed to the narrow phase                   (ask)
+//!   each pair is carried over, moved along, or passed to the narrow phase                   (chunk)
 //!   candidates and contacts are written, and last update's that go on or end are noted      (settle)
 //! ```
 //! A frame of bodies at rest mostly waits for memory. What each technique bought, in heaps and pyramids of boxes (AMD
@@ -40,8 +40,8 @@
 //! Kernels here and below avoid `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
 //! time of such a frame and half of a sweep's; by default they are inlined, and nothing is gained.
 
-use super::ask::{Asker, Chunk};
-use super::both;
+use super::chunk::{Chunk, CollideStage};
+use super::join;
 use super::settle::Settled;
 use crate::collider::Tag;
 use crate::contact::{Candidate, Record};
@@ -67,7 +67,7 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     if begin_chunks(world, do_most_rest) {
         keep_quiet(world);
     }
-    ask(world, do_most_rest);
+    collide_chunks(world, do_most_rest);
     if !does_any_stay {
         make_room_as_in(&world.answered, &mut world.scratch.last_answered);
     }
@@ -77,26 +77,26 @@ pub(super) fn collide<S: Space>(world: &mut World<S>) {
     }
 }
 
-/// Puts last update's lists aside, and sets up the chunks. Where most bodies are at rest, last update's chunks go on,
+/// Puts last update's lists aside, and sets up the chunks. Where most bodies are at rest, last update's chunks persist,
 /// as long as none grows too large and there are not far too many; else chunks are cut anew. Returns whether the
 /// chunks' last results still belong to these chunks.
 fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     let World { candidates, records, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, is_settled, last_candidates, last_records, .. } = scratch;
     // A world's first pairs are all passed to the narrow phase.
-    let asked = settled.iter().map(|settled| settled.tally.asked).reduce(|all, asked| all + asked);
-    let size = chunk_of(pairs.len(), asked.unwrap_or(pairs.len()));
+    let computed = settled.iter().map(|settled| settled.tally.computed).reduce(|all, one| all + one);
+    let size = chunk_of(pairs.len(), computed.unwrap_or(pairs.len()));
     core::mem::swap(candidates, last_candidates);
     core::mem::swap(records, last_records);
     last_candidates.ends_in(pairs, chunk_ends);
     let starts = core::iter::once(&0).chain(&*chunk_ends);
     let longest = chunk_ends.iter().zip(starts).map(|(end, start)| end - start).max().unwrap_or(0);
     let are_many = chunk_ends.len() > 2 * pairs.len().div_ceil(size);
-    let goes_on = do_most_rest && longest <= size && !are_many;
-    if goes_on {
+    let do_chunks_persist = do_most_rest && longest <= size && !are_many;
+    if do_chunks_persist {
         candidates.begin_at(last_candidates.firsts().iter().copied());
     } else {
-        // Chunks that may go on get room to grow.
+        // Chunks that may persist get room to grow.
         let cut = if do_most_rest { size - size / 4 } else { size };
         candidates.begin_at(pairs.iter().step_by(cut).copied());
         candidates.ends_in(pairs, chunk_ends);
@@ -107,7 +107,7 @@ fn begin_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) -> bool {
     if !were_settled {
         settled.iter_mut().for_each(|settled| settled.tally.forget());
     }
-    were_settled && goes_on
+    were_settled && do_chunks_persist
 }
 
 /// Takes over last update's lists, as they are, of chunks in which nothing can have changed.
@@ -120,7 +120,7 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
     let mut start = 0;
     for (chunk, &end) in chunk_ends.iter().enumerate() {
         let pairs = &pairs[core::mem::replace(&mut start, end)..end];
-        if settled[chunk].goes_on(pairs, is_moved) {
+        if settled[chunk].is_unchanged(pairs, is_moved) {
             settled[chunk].keep_quiet();
             core::mem::swap(&mut candidates.parts().1[chunk], &mut last_candidates.parts().1[chunk]);
             // The walks of other chunks through last update's candidates may pass here.
@@ -152,7 +152,7 @@ fn make_room_as_in<M>(answered: &[Batch<M>], others: &mut Vec<Batch<M>>) {
 }
 
 /// Works through the chunks.
-fn ask<S: Space>(world: &mut World<S>, do_most_rest: bool) {
+fn collide_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) {
     let World { bodies, keys, is_moved, reshaped, odometers, motions, persistent, .. } = world;
     let World { candidates, records, answered, scratch, .. } = world;
     let Scratch { pairs, chunk_ends, settled, spare, last_candidates, last_records, last_answered, .. } =
@@ -166,7 +166,7 @@ fn ask<S: Space>(world: &mut World<S>, do_most_rest: bool) {
         answered: room_for(count, answered, Batch::clear),
         settled: room_for(count, settled, Settled::clear),
     };
-    part.work(&Asker {
+    part.work(&CollideStage {
         bodies,
         keys,
         is_moved,
@@ -206,17 +206,17 @@ struct Part<'c, S: Space> {
 
 impl<S: Space> Part<'_, S> {
     /// Works through the chunks: a single one, or both halves, on two threads if possible.
-    fn work(self, asker: &Asker<'_, S>) {
+    fn work(self, stage: &CollideStage<'_, S>) {
         if self.settled.iter().all(Settled::is_quiet) {
             return;
         }
         if self.settled.len() > 1 {
             let (one, other) = self.halves();
-            return both(|| one.work(asker), || other.work(asker));
+            return join(|| one.work(stage), || other.work(stage));
         }
         let Self { first: number, candidates, records, answered, settled } = self;
         if let ([candidates], [records], [answered], [settled]) = (candidates, records, answered, settled) {
-            asker.ask(Chunk { number, candidates, records, answered, settled });
+            stage.collide_chunk(Chunk { number, candidates, records, answered, settled });
         }
     }
 

@@ -1,6 +1,6 @@
 //! Stage 1: moved poses to boxes, rounded outwards.
 
-use super::both;
+use super::join;
 use crate::motion::swept_bounds;
 use crate::space::Space;
 use crate::world::World;
@@ -65,7 +65,7 @@ fn make<A: Send>(
         let (low, high) = slots.split_at(slots.len() / 2);
         let middle = high[0] as usize;
         let (boxes_low, boxes_high) = boxes.split_at_mut(middle - first);
-        return both(
+        return join(
             || make(low, (first, boxes_low), share, bounds),
             || make(high, (middle, boxes_high), share, bounds),
         );

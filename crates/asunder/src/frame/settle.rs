@@ -3,7 +3,7 @@
 //! A candidate holds the number of its contact and whether that had begun, so a contact that goes on is not looked up
 //! in last update's list.
 
-use super::ask::{Asker, Chunk, Way, manifolds_at};
+use super::chunk::{Chunk, CollideStage, Way, manifolds_at};
 use crate::collider::Collider;
 use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::odometer::Odometer;
@@ -15,7 +15,7 @@ use asunder_narrow::{Answer, Batch};
 use std::sync::PoisonError;
 
 /// Two bodies.
-pub(super) type Both<'a, S> = (&'a Collider<S>, &'a Collider<S>);
+pub(super) type Bodies<'a, S> = (&'a Collider<S>, &'a Collider<S>);
 
 /// Two bodies within their margins.
 struct Met {
@@ -57,8 +57,8 @@ pub(crate) struct Tally {
     counted: usize,
     /// Whether the second bodies are others than those of the last count.
     pub(super) has_others: bool,
-    /// Pairs that were passed to the narrow phase.
-    pub(super) asked: usize,
+    /// Pairs that the narrow phase computed.
+    pub(super) computed: usize,
     pub(super) new: usize,
     pub(super) overlapping: usize,
     pub(super) manifolds: usize,
@@ -67,7 +67,7 @@ pub(crate) struct Tally {
 impl Tally {
     fn begin(&mut self) {
         (self.counted, self.has_others) = (0, false);
-        (self.asked, self.new, self.overlapping, self.manifolds) = (0, 0, 0, 0);
+        (self.computed, self.new, self.overlapping, self.manifolds) = (0, 0, 0, 0);
     }
 
     #[inline]
@@ -129,18 +129,18 @@ impl<S: Space> Settled<S> {
         self.tally.begin();
     }
 
-    /// Begins with a chunk of these pairs, which are noted if it may go on in the next update.
-    pub(super) fn begin_with(&mut self, pairs: &[PairId], may_go_on: bool) {
+    /// Begins with a chunk of these pairs, which are noted if it may be skipped in the next update.
+    pub(super) fn begin_with(&mut self, pairs: &[PairId], may_be_skipped: bool) {
         self.start_over();
-        self.are_noted = may_go_on;
-        if may_go_on {
+        self.are_noted = may_be_skipped;
+        if may_be_skipped {
             self.pairs.extend_from_slice(pairs);
         }
     }
 
     /// Whether nothing in the chunk can have changed: the same pairs, none of their bodies moved, and no contact was
     /// new at the last update. A body that came to the slot of another counts as moved.
-    pub(super) fn goes_on(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
+    pub(super) fn is_unchanged(&self, pairs: &[PairId], is_moved: &[bool]) -> bool {
         let is_still = |pair: &PairId| !is_moved[pair.a as usize] && !is_moved[pair.b as usize];
         self.tally.new == 0 && self.are_noted && pairs == self.pairs && pairs.iter().all(is_still)
     }
@@ -153,7 +153,7 @@ impl<S: Space> Settled<S> {
     /// It is skipped: its last results are handed over again, except those that later stages have consumed.
     pub(super) fn keep_quiet(&mut self) {
         self.is_quiet = true;
-        self.tally.asked = 0;
+        self.tally.computed = 0;
         self.tally.has_others = false;
     }
 
@@ -193,7 +193,7 @@ impl<S: Space> Settled<S> {
     }
 }
 
-impl<S: Space> Asker<'_, S> {
+impl<S: Space> CollideStage<'_, S> {
     /// Settles the candidates of a chunk and makes its records, in order of the pairs.
     pub(super) fn settle(&self, chunk: Chunk<'_, S>) {
         let Chunk { number, candidates, records, answered, settled } = chunk;
@@ -210,22 +210,23 @@ impl<S: Space> Asker<'_, S> {
                     let met = Met { overlapping, user_data, sensor: false };
                     Some(self.record_of(candidate, met, place, answered))
                 }
-                Way::Asked => {
+                Way::Computed => {
                     // Each job has an answer, in order, and both bodies exist: `answer` has seen to that.
                     let (a, b) = candidate.keys;
-                    let both = self.bodies.get(a).zip(self.bodies.get(b));
+                    let bodies = self.bodies.get(a).zip(self.bodies.get(b));
                     let answer = answered.answers.get(next);
                     next += 1;
-                    answer.zip(both).and_then(|(answer, both)| {
+                    answer.zip(bodies).and_then(|(answer, bodies)| {
                         self.learn(candidate, answer);
-                        match self.kept_of((candidate.pair, both), answer, answered, settled) {
+                        match self.kept_of((candidate.pair, bodies), answer, answered, settled) {
                             Some(kept) => settled.kept.push((number as u32, kept)),
                             None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
                         }
                         let &Answer::Contact { overlapping, ref manifolds, .. } = answer else { return None };
                         let place = Place { chunk, start: manifolds.start, end: manifolds.end };
-                        let user_data = (both.0.user_data, both.1.user_data);
-                        let met = Met { overlapping, user_data, sensor: both.0.sensor || both.1.sensor };
+                        let (a, b) = bodies;
+                        let user_data = (a.user_data, b.user_data);
+                        let met = Met { overlapping, user_data, sensor: a.sensor || b.sensor };
                         Some(self.record_of(candidate, met, place, answered))
                     })
                 }
@@ -246,7 +247,7 @@ impl<S: Space> Asker<'_, S> {
                 }
             };
         }
-        settled.tally.asked = next;
+        settled.tally.computed = next;
         settled.tally.end();
         // `choose` put those of lost candidates first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
@@ -267,7 +268,7 @@ impl<S: Space> Asker<'_, S> {
     /// The persistent manifold of an answer, if the bodies touch and it is likely to last.
     fn kept_of(
         &self,
-        (pair, (a, b)): (PairId, Both<'_, S>),
+        (pair, (a, b)): (PairId, Bodies<'_, S>),
         answer: &Answer,
         answered: &Batch<S::Manifold>,
         settled: &mut Settled<S>,
@@ -319,9 +320,9 @@ impl<S: Space> Asker<'_, S> {
         // Without a motion, no manifold need be read.
         let speculative = self.is_going(pair) && !met.overlapping && {
             let found = &answered.manifolds[manifolds.start as usize..manifolds.end as usize];
-            let both = self.bodies.get(keys.0).zip(self.bodies.get(keys.1));
-            let is_beyond = |(a, b): Both<'_, S>| S::least_separation(found) > a.margin + b.margin;
-            !found.is_empty() && both.is_some_and(is_beyond)
+            let bodies = self.bodies.get(keys.0).zip(self.bodies.get(keys.1));
+            let is_beyond = |(a, b): Bodies<'_, S>| S::least_separation(found) > a.margin + b.margin;
+            !found.is_empty() && bodies.is_some_and(is_beyond)
         };
         let Met { overlapping, user_data, sensor } = met;
         Record {

@@ -11,7 +11,7 @@
 //! ```
 //! A chunk's result is a function of its pairs and of last update's lists.
 
-use super::settle::{Both, Settled};
+use super::settle::{Bodies, Settled};
 use crate::collider::Collider;
 use crate::contact::{Candidate, ContactNumber, Place, Record};
 use crate::motion::{Motions, approach};
@@ -44,7 +44,7 @@ pub(super) struct Chunk<'c, S: Space> {
 }
 
 /// The data that all chunks need, shared by all threads.
-pub(super) struct Asker<'a, S: Space> {
+pub(super) struct CollideStage<'a, S: Space> {
     pub(super) bodies: &'a SlotMap<S::Key, Collider<S>>,
     pub(super) keys: &'a [S::Key],
     pub(super) is_moved: &'a [bool],
@@ -55,7 +55,7 @@ pub(super) struct Asker<'a, S: Space> {
     pub(super) pairs: &'a [PairId],
     pub(super) chunk_ends: &'a [usize],
     pub(super) firsts: &'a [PairId],
-    /// Whether chunks may go on in the next update.
+    /// Whether chunks may be skipped in the next update.
     pub(super) do_most_rest: bool,
     /// Last update's lists, in chunks of their own.
     pub(super) last_candidates: &'a Candidates<S::Key>,
@@ -76,13 +76,13 @@ pub(super) enum Way {
     /// Its manifolds were moved along: `count` of them, from `at` on. With the bodies' user data, as they have just
     /// been read.
     Moved { at: u32, count: u32, overlapping: bool, user_data: (u64, u64) },
-    /// Passed to the narrow phase.
-    Asked,
+    /// Computed by the narrow phase.
+    Computed,
 }
 
-impl<S: Space> Asker<'_, S> {
+impl<S: Space> CollideStage<'_, S> {
     /// Works through a chunk.
-    pub(super) fn ask(&self, mut chunk: Chunk<'_, S>) {
+    pub(super) fn collide_chunk(&self, mut chunk: Chunk<'_, S>) {
         let start = chunk.number.checked_sub(1).map_or(0, |before| self.chunk_ends[before]);
         let pairs = &self.pairs[start..self.chunk_ends[chunk.number]];
         chunk.answered.clear();
@@ -166,8 +166,8 @@ impl<S: Space> Asker<'_, S> {
             let Some((a, b)) = self.bodies.get(keys.0).zip(self.bodies.get(keys.1)) else { continue };
             // A body with a motion counts as changed, so none of its pairs is carried over: all of them get here.
             if (a.bullet || b.bullet) && self.is_going(pair) {
-                let both = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
-                bullets.extend(both.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
+                let orders = [(a.bullet, keys), (b.bullet, (keys.1, keys.0))];
+                bullets.extend(orders.into_iter().filter_map(|(is_bullet, keys)| is_bullet.then_some(keys)));
             }
             let ahead = self.approach(pair, (a, b));
             let margin = a.margin + b.margin + ahead;
@@ -179,7 +179,7 @@ impl<S: Space> Asker<'_, S> {
                 *way = Way::Moved { at, count: to.len() as u32 - at, overlapping, user_data };
                 continue;
             }
-            *way = Way::Asked;
+            *way = Way::Computed;
             jobs.push(S::job([a, b], [margin, ahead], hint));
             if jobs.is_full() {
                 S::collide(&jobs, answered);
@@ -191,7 +191,7 @@ impl<S: Space> Asker<'_, S> {
 
     /// By how much the bodies' motions may bring them nearer. Sensors have no speculative contacts.
     #[inline]
-    fn approach(&self, pair: PairId, (a, b): Both<'_, S>) -> f32 {
+    fn approach(&self, pair: PairId, (a, b): Bodies<'_, S>) -> f32 {
         if self.motions.is_empty() || a.sensor || b.sensor {
             return 0.0;
         }
