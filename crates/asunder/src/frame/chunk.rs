@@ -71,7 +71,7 @@ pub(super) struct CollideStage<'a, S: Space> {
 pub(super) enum Way {
     /// Nothing can have changed: carried over.
     Carried,
-    /// Not decided yet.
+    /// Not decided yet. Stays so only where a body does not exist, as in no pair that the sweep finds: no contact.
     Open,
     /// Its manifolds were moved along: `count` of them, from `at` on. With the bodies' user data, as they have just
     /// been read.

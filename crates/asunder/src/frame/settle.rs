@@ -196,58 +196,59 @@ impl<S: Space> Settled<S> {
 impl<S: Space> CollideStage<'_, S> {
     /// Settles the candidates of a chunk and makes its records, in order of the pairs.
     pub(super) fn settle(&self, chunk: Chunk<'_, S>) {
-        let Chunk { number, candidates, records, answered, settled } = chunk;
-        let chunk = number as u32;
-        let mut next = 0;
-        for (number, candidate) in candidates.iter_mut().enumerate() {
-            let (way, before) = (settled.ways[number], candidate.contact);
+        let Chunk { number: chunk_number, candidates, records, answered, settled } = chunk;
+        let place_of = |start, end| Place { chunk: chunk_number as u32, start, end };
+        let mut next_answer = 0;
+        for (index, candidate) in candidates.iter_mut().enumerate() {
+            let (way, last_contact) = (settled.ways[index], candidate.contact);
             let record = match way {
-                Way::Carried => {
-                    before.number().map(|number| self.carried(self.last_records.get(number), answered, chunk))
-                }
+                Way::Carried => last_contact.number().map(|last_number| {
+                    let last_record = self.last_records.get(last_number);
+                    let (start, end) = self.carry(last_record, answered);
+                    Record { manifolds: place_of(start, end), ..*last_record }
+                }),
                 Way::Moved { at, count, overlapping, user_data } => {
-                    let place = Place { chunk, start: at, end: at + count };
+                    let manifolds = place_of(at, at + count);
                     let met = Met { overlapping, user_data, sensor: false };
-                    Some(self.record_of(candidate, met, place, answered))
+                    Some(self.record_of(candidate, met, manifolds, answered))
                 }
                 Way::Computed => {
                     // Each job has an answer, in order, and both bodies exist: `answer` has seen to that.
                     let (a, b) = candidate.keys;
                     let bodies = self.bodies.get(a).zip(self.bodies.get(b));
-                    let answer = answered.answers.get(next);
-                    next += 1;
+                    let answer = answered.answers.get(next_answer);
+                    next_answer += 1;
                     answer.zip(bodies).and_then(|(answer, bodies)| {
                         self.learn(candidate, answer);
                         match self.kept_of((candidate.pair, bodies), answer, answered, settled) {
-                            Some(kept) => settled.kept.push((number as u32, kept)),
+                            Some(kept) => settled.kept.push((index as u32, kept)),
                             None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
                         }
                         let &Answer::Contact { overlapping, ref manifolds, .. } = answer else { return None };
-                        let place = Place { chunk, start: manifolds.start, end: manifolds.end };
+                        let manifolds = place_of(manifolds.start, manifolds.end);
                         let (a, b) = bodies;
                         let user_data = (a.user_data, b.user_data);
                         let met = Met { overlapping, user_data, sensor: a.sensor || b.sensor };
-                        Some(self.record_of(candidate, met, place, answered))
+                        Some(self.record_of(candidate, met, manifolds, answered))
                     })
                 }
-                // One of its bodies is gone.
                 Way::Open => None,
             };
             candidate.contact = match record {
                 Some(mut record) => {
-                    settled.begin(&mut record, before);
+                    settled.begin(&mut record, last_contact);
                     settled.tally.count(&record);
-                    let number = chunk as usize * CHUNK + records.len();
+                    let record_number = chunk_number * CHUNK + records.len();
                     records.push(record);
-                    ContactNumber::new(number, record.begun)
+                    ContactNumber::new(record_number, record.begun)
                 }
                 None => {
-                    settled.set_aside(before);
+                    settled.set_aside(last_contact);
                     ContactNumber::NONE
                 }
             };
         }
-        settled.tally.computed = next;
+        settled.tally.computed = next_answer;
         settled.tally.end();
         // `choose` put those of lost candidates first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
@@ -295,17 +296,12 @@ impl<S: Space> CollideStage<'_, S> {
         !motions.is_empty() && (motions.of(pair.a).is_some() || motions.of(pair.b).is_some())
     }
 
-    /// A contact carried over from last update, with its manifolds.
-    fn carried(
-        &self,
-        before: &Record<S::Key>,
-        answered: &mut Batch<S::Manifold>,
-        chunk: u32,
-    ) -> Record<S::Key> {
+    /// Carries over a contact's manifolds from last update; returns where they start and end.
+    fn carry(&self, last: &Record<S::Key>, answered: &mut Batch<S::Manifold>) -> (u32, u32) {
         let to = &mut answered.manifolds;
         let start = to.len() as u32;
-        to.extend_from_slice(manifolds_at(&before.manifolds, self.last_answered));
-        Record { manifolds: Place { chunk, start, end: to.len() as u32 }, ..*before }
+        to.extend_from_slice(manifolds_at(&last.manifolds, self.last_answered));
+        (start, to.len() as u32)
     }
 
     /// A contact as the narrow phase alone knows it: [`Settled::begin`] decides whether it has begun, and is new.
