@@ -80,6 +80,38 @@ pub(super) enum Way {
     Computed,
 }
 
+/// Last update's candidates in pair order, beside which this update's pairs are walked.
+struct LastCandidates<'a, K, I> {
+    next: &'a [Candidate<K>],
+    /// What comes after those, slice by slice.
+    later: I,
+}
+
+impl<'a, K: Key, I: Iterator<Item = &'a [Candidate<K>]>> LastCandidates<'a, K, I> {
+    /// The candidate of a pair, if it was one last update. Those before it are no longer candidates.
+    #[inline(always)]
+    fn advance_to(&mut self, pair: PairId, mut lose: impl FnMut(&Candidate<K>)) -> Option<&'a Candidate<K>> {
+        loop {
+            match self.next.split_first() {
+                Some((known, others)) if known.pair <= pair => {
+                    self.next = others;
+                    if known.pair == pair {
+                        return Some(known);
+                    }
+                    lose(known);
+                }
+                Some(_) => return None,
+                None => self.next = self.later.next()?,
+            }
+        }
+    }
+
+    /// Those after the last pair.
+    fn rest(self) -> impl Iterator<Item = &'a Candidate<K>> {
+        self.next.iter().chain(self.later.flatten())
+    }
+}
+
 impl<S: Space> CollideStage<'_, S> {
     /// Works through a chunk.
     pub(super) fn collide_chunk(&self, mut chunk: Chunk<'_, S>) {
@@ -100,54 +132,50 @@ impl<S: Space> CollideStage<'_, S> {
         // Last update's candidates before the first chunk's first pair belong to it, too.
         let first = if *number == 0 { None } else { self.firsts.get(*number).copied() };
         let end = self.firsts.get(*number + 1).copied();
-        let mut slices = self.last_candidates.between(first, end);
-        let mut last: &[Candidate<S::Key>] = &[];
+        let mut last = LastCandidates { next: &[], later: self.last_candidates.between(first, end) };
         // Elements that are there already are overwritten.
         candidates.resize(pairs.len(), blank());
         for (&pair, candidate) in pairs.iter().zip(candidates.iter_mut()) {
-            let mut before = None;
-            loop {
-                match last.split_first() {
-                    Some((known, later)) if known.pair <= pair => {
-                        last = later;
-                        if known.pair == pair {
-                            before = Some(known);
-                            break;
-                        }
-                        settled.give_up(known);
-                    }
-                    Some(_) => break,
-                    None => match slices.next() {
-                        Some(next) => last = next,
-                        None => break,
-                    },
-                }
-            }
-            let (a, b) = (pair.a as usize, pair.b as usize);
-            let keys = (self.keys[a], self.keys[b]);
-            let (mut hint, mut persistent, mut contact) = (Hint::NONE, NOWHERE, ContactNumber::NONE);
-            if let Some(known) = before {
-                // A reused slot is a new body.
-                let is_same = known.keys == keys;
-                let are_apart = || Odometer::are_before([self.odometers[a], self.odometers[b]], known.until);
-                if is_same && ((!self.is_moved[a] && !self.is_moved[b]) || are_apart()) {
-                    *candidate = *known;
-                    settled.ways.push(Way::Carried);
-                    continue;
-                }
-                if !is_same {
-                    settled.give_up(known);
-                } else if of_another_shape(self.reshaped, pair) {
-                    contact = known.contact;
-                    settled.vacate(known.persistent);
-                } else {
-                    (hint, persistent, contact) = (known.hint, known.persistent, known.contact);
-                }
-            }
-            *candidate = Candidate { pair, keys, hint, persistent, contact, until: f64::NEG_INFINITY };
-            settled.ways.push(Way::Open);
+            let known = last.advance_to(pair, |lost| settled.give_up(lost));
+            let (now, way) = self.taken_over(pair, known, settled);
+            *candidate = now;
+            settled.ways.push(way);
         }
-        last.iter().chain(slices.flatten()).for_each(|gone| settled.give_up(gone));
+        last.rest().for_each(|lost| settled.give_up(lost));
+    }
+
+    /// A pair's candidate, with what last update's is still good for, and whether the pair is carried over.
+    #[inline(always)]
+    fn taken_over(
+        &self,
+        pair: PairId,
+        known: Option<&Candidate<S::Key>>,
+        settled: &mut Settled<S>,
+    ) -> (Candidate<S::Key>, Way) {
+        let new =
+            Candidate { pair, keys: (self.keys[pair.a as usize], self.keys[pair.b as usize]), ..blank() };
+        let Some(known) = known else { return (new, Way::Open) };
+        // A reused slot is a new body.
+        if known.keys != new.keys {
+            settled.give_up(known);
+            return (new, Way::Open);
+        }
+        if self.is_as_before(known) {
+            return (*known, Way::Carried);
+        }
+        if of_another_shape(self.reshaped, pair) {
+            settled.vacate(known.persistent);
+            return (Candidate { contact: known.contact, ..new }, Way::Open);
+        }
+        (Candidate { until: f64::NEG_INFINITY, ..*known }, Way::Open)
+    }
+
+    /// Whether neither body moved, or they were apart and have not moved far enough since to meet.
+    #[inline(always)]
+    fn is_as_before(&self, known: &Candidate<S::Key>) -> bool {
+        let (a, b) = (known.pair.a as usize, known.pair.b as usize);
+        !self.is_moved[a] && !self.is_moved[b]
+            || Odometer::are_before([self.odometers[a], self.odometers[b]], known.until)
     }
 
     /// Moves manifolds along, or calls the narrow phase.
