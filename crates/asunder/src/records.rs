@@ -121,8 +121,13 @@ impl<T: OfPair> Chunked<T> {
         &self.chunks
     }
 
-    /// The least pair of each chunk in use, and all chunks, mutably.
-    pub(crate) fn parts(&mut self) -> (&[PairId], &mut [Vec<T>]) {
+    /// The same.
+    pub(crate) fn chunks_mut(&mut self) -> &mut [Vec<T>] {
+        &mut self.chunks
+    }
+
+    /// [`firsts`](Self::firsts) and [`chunks_mut`](Self::chunks_mut).
+    pub(crate) fn firsts_and_chunks_mut(&mut self) -> (&[PairId], &mut [Vec<T>]) {
         (&self.firsts, &mut self.chunks)
     }
 

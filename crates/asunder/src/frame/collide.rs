@@ -1,14 +1,19 @@
 //! Stage 3: candidate pairs to contacts.
 //!
 //! ```text
-//! cut the pairs into chunks: where they were cut last time, as long as none has grown too large
-//! chunks with the same pairs as then, none of whose bodies moved, keep their lists
-//! for each other chunk, in parallel:
-//!   each pair is carried over, moved along, or passed to the narrow phase                   (chunk)
-//!   candidates and contacts are written, and last update's that go on or end are noted      (settle)
+//! cut the pairs into chunks: where they were cut last time, as long as none has grown too large     (begin_chunks)
+//! chunks with the same pairs as then, none of whose bodies moved, keep their lists                  (keep_quiet)
+//! for each other chunk, in parallel:                                                                (collide_chunks)
+//!   each pair is carried over, moved along, or passed to the narrow phase                           (chunk.rs)
+//!   candidates and contacts are written, and last update's that go on or end are noted              (settle.rs)
+//! make room in the lists that were not needed, and mark bodies as not moved
 //! ```
-//! A frame of bodies at rest mostly waits for memory. What each technique bought, in heaps and pyramids of boxes (AMD
-//! EPYC, Zen 4, 2026-11-22 and -23):
+//! Kernels here and below avoid `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
+//! time of a frame at rest and half of a sweep's; by default they are inlined, and nothing is gained.
+//!
+//! # What each technique bought
+//! A frame of bodies at rest mostly waits for memory. In heaps and pyramids of boxes (AMD EPYC, Zen 4, 2026-11-22 and
+//! -23):
 //!
 //! 1. manifolds stay in the list of the chunk that made them: copying took 17 % of the time, and takes 3 %;
 //! 2. bodies are read once, while their pair is processed: a twentieth;
@@ -27,7 +32,8 @@
 //!    `frame/asleep` of the bench `frame`). Where all move, 2 % more instructions. Tried: chunks that persist there as
 //!    well, with room to grow: lists took longer to reach their largest size.
 //!
-//! Tried, on one thread (medians of runs next to each other, on a busy machine):
+//! # What was tried, and dropped
+//! On one thread (medians of runs next to each other, on a busy machine):
 //!
 //! - Chunks of 128 pairs, 9 % slower than 256: each has lists of its own, and begins with waiting for each of them.
 //! - Persistent manifolds in a `Box` of their own: pyramids 8 % slower, hulls faster.
@@ -36,9 +42,6 @@
 //!   rest is 1.02 times as fast and pyramids 1.00 to 1.03 (Zen 5, 2026-11-24): not worth unsafe code.
 //! - Skipping pairs that are still apart without a branch halved the mispredictions of a simulated processor, and saved
 //!   no time (heaps -2 to +2 %, pyramids 2 to 5 % slower, hulls 5 % faster).
-//!
-//! Kernels here and below avoid `map`, `zip` and `from_fn` on arrays: with `lto = "off"` they are calls, a third of the
-//! time of such a frame and half of a sweep's; by default they are inlined, and nothing is gained.
 
 use super::chunk::{Chunk, CollideStage};
 use super::join;
@@ -122,10 +125,11 @@ fn keep_quiet<S: Space>(world: &mut World<S>) {
         let pairs = &pairs[core::mem::replace(&mut start, end)..end];
         if settled[chunk].is_unchanged(pairs, is_moved) {
             settled[chunk].keep_quiet();
-            core::mem::swap(&mut candidates.parts().1[chunk], &mut last_candidates.parts().1[chunk]);
+            let last = &mut last_candidates.chunks_mut()[chunk];
+            core::mem::swap(&mut candidates.chunks_mut()[chunk], last);
             // The walks of other chunks through last update's candidates may pass here.
-            last_candidates.parts().1[chunk].clear();
-            core::mem::swap(&mut records.parts().1[chunk], &mut last_records.parts().1[chunk]);
+            last.clear();
+            core::mem::swap(&mut records.chunks_mut()[chunk], &mut last_records.chunks_mut()[chunk]);
             core::mem::swap(&mut answered[chunk], &mut last_answered[chunk]);
         }
     }
@@ -158,11 +162,11 @@ fn collide_chunks<S: Space>(world: &mut World<S>, do_most_rest: bool) {
     let Scratch { pairs, chunk_ends, settled, spare, last_candidates, last_records, last_answered, .. } =
         scratch;
     let count = chunk_ends.len();
-    let (firsts, candidates) = candidates.parts();
+    let (firsts, candidates) = candidates.firsts_and_chunks_mut();
     let part = Part {
         first: 0,
         candidates: &mut candidates[..count],
-        records: &mut records.parts().1[..count],
+        records: &mut records.chunks_mut()[..count],
         answered: room_for(count, answered, Batch::clear),
         settled: room_for(count, settled, Settled::clear),
     };

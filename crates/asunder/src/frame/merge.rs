@@ -13,7 +13,7 @@ pub(super) fn merge<S: Space>(world: &mut World<S>) {
         records.all_mut().for_each(|record| record.is_new = false);
         return;
     }
-    for (settled, candidates) in settled.iter_mut().zip(candidates.parts().1) {
+    for (settled, candidates) in settled.iter_mut().zip(candidates.chunks_mut()) {
         ended.extend(settled.ended.drain(..).map(|number| *last_records.get(number as usize)));
         for place in settled.vacated.drain(..) {
             persistent.vacate(place);
