@@ -11,6 +11,21 @@
 //! if that costs no less than sweeping the boxes, or loose boxes have many more pairs: give loose boxes up, and try
 //!   again after some frames, twice as many each time
 //! ```
+//! The same as a table of states ([`State`]). `n` counts frames, `patience` is where it starts:
+//! ```text
+//! state          a frame in which                               next state                        pairs from
+//! Boxes n        few boxes move                                 Boxes n                           a sweep
+//! Boxes n        many move                                      Boxes n - 1; of 0, Noted          a sweep
+//! Noted          few move                                       Noted                             a sweep
+//! Noted          many move                                      Loose                             loose boxes
+//! Loose          few move, as in the STILL frames before        Boxes patience                    a sweep
+//! Loose          strays cost at most half a sweep (1)           Loose                             loose boxes
+//! Loose          they cost more, loose boxes were worth it      Loose anew; least patience        loose boxes
+//! Loose          they cost more, loose boxes were not           Boxes patience; patience * 2      a sweep
+//! Noted, Loose   boxes were taken off the list's end            Boxes patience; patience * 2      a sweep
+//! to Loose       loose boxes have too many pairs                Boxes patience; patience * 2      a sweep
+//! (1) and so few have left their loose boxes that not all need be swept again
+//! ```
 //! A frame in which all boxes get new loose ones, or give them up, takes as long as up to three sweeps of the boxes.
 //! Bodies that rest on each other tremble, but stay inside their loose boxes meanwhile: a frame then costs one
 //! comparison per box and one per pair. The list equals that of [`Sweep`](crate::Sweep) whatever came before: history
@@ -104,6 +119,15 @@ enum State {
     Loose { frames: usize },
 }
 
+/// What a frame's pairs are made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    /// The pairs of loose boxes, which are up to date.
+    Loose,
+    /// A sweep of the boxes as they are.
+    Boxes,
+}
+
 /// Cost of a sweep per box and per pair, in nanoseconds (AMD EPYC, Zen 4; roughly).
 const SWEPT: [usize; 2] = [45, 3];
 
@@ -166,11 +190,12 @@ impl<B: Bounds> LooseSweep<B> {
         pairs: &mut Vec<PairId>,
     ) -> Result<(), TooManyPairs> {
         let admit: &Admit = &|pairs| keep(pairs, &admit);
-        let outcome = if self.finds_near(boxes, &moved, admit) {
-            tell(&self.near, boxes, pairs);
-            if pairs.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
-        } else {
-            self.sweep.update_by(boxes, moved.places, admit, limit, pairs)
+        let outcome = match self.advance(boxes, &moved, admit) {
+            Source::Loose => {
+                tell(&self.near, boxes, pairs);
+                if pairs.len() > limit { Err(TooManyPairs { limit }) } else { Ok(()) }
+            }
+            Source::Boxes => self.sweep.update_by(boxes, moved.places, admit, limit, pairs),
         };
         self.told = pairs.len();
         if outcome.is_err() {
@@ -193,55 +218,55 @@ impl<B: Bounds> LooseSweep<B> {
             + self.near.capacity() * size_of::<PairId>()
     }
 
-    /// Brings the pairs of loose boxes up to date. False if boxes are to be swept as they are.
-    fn finds_near<C: Fn(u32) -> bool + Sync>(
+    /// Moves on to this frame's state, and brings the pairs of loose boxes up to date where these are its source.
+    fn advance<C: Fn(u32) -> bool + Sync>(
         &mut self,
         boxes: &[B],
         moved: &Moved<'_, C>,
         admit: &Admit,
-    ) -> bool {
+    ) -> Source {
         let do_many = moved.places.len() * FEW > boxes.len();
         match self.state {
-            State::Boxes { .. } | State::Noted if !do_many => false,
+            State::Boxes { .. } | State::Noted if !do_many => Source::Boxes,
             State::Boxes { frames: 0 } => {
                 self.note(boxes);
-                false
+                Source::Boxes
             }
             State::Boxes { frames } => {
                 self.state = State::Boxes { frames: frames - 1 };
-                false
+                Source::Boxes
             }
-            State::Noted if boxes.len() >= self.loose.len() => self.loosen(boxes, admit),
+            State::Noted if boxes.len() >= self.loose.len() => self.loosen_all(boxes, admit),
             State::Loose { frames } if boxes.len() >= self.loose.len() => {
                 self.still = if do_many { 0 } else { self.still + 1 };
                 if self.still > STILL {
                     // Keeping pairs at rest costs less now. Loose boxes have not failed, so `patience` stays.
                     self.sweep.forget();
                     self.state = State::Boxes { frames: self.patience };
-                    return false;
+                    return Source::Boxes;
                 }
                 self.find_strays(boxes, moved);
-                self.go_on(boxes, frames, admit)
+                self.keep_loose(boxes, frames, admit)
             }
-            State::Noted | State::Loose { .. } => self.tighten(),
+            State::Noted | State::Loose { .. } => self.give_up_loose(),
         }
     }
 
     /// Looks up boxes that have left their loose ones, if these are few; otherwise makes new loose boxes for all if the
     /// last were worth it, and else gives them up.
-    fn go_on(&mut self, boxes: &[B], frames: usize, admit: &Admit) -> bool {
+    fn keep_loose(&mut self, boxes: &[B], frames: usize, admit: &Admit) -> Source {
         let (sweep, look) = (self.cost_of_sweep(), self.cost_of_look());
         let is_worn = !self.strays.is_empty() && self.sweep.is_worn(self.strays.len());
         if 2 * look <= sweep && !is_worn {
             // A frame in which few boxes move saved no sweep.
             self.state = State::Loose { frames: frames + usize::from(self.still == 0) };
             self.spent += look + NEAR * (boxes.len() + self.near.len());
-            self.look_up(boxes, admit)
+            self.look_up_strays(boxes, admit)
         } else if 4 * self.spent <= 3 * frames * sweep {
             self.patience = PATIENCE[0];
-            self.loosen(boxes, admit)
+            self.loosen_all(boxes, admit)
         } else {
-            self.tighten()
+            self.give_up_loose()
         }
     }
 
@@ -270,7 +295,7 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Makes loose boxes for all boxes, and sweeps these.
-    fn loosen(&mut self, boxes: &[B], admit: &Admit) -> bool {
+    fn loosen_all(&mut self, boxes: &[B], admit: &Admit) -> Source {
         self.loose.resize(boxes.len(), B::NOTHING);
         self.widths.resize(boxes.len(), 0.0);
         for (place, now) in boxes.iter().enumerate() {
@@ -286,15 +311,15 @@ impl<B: Bounds> LooseSweep<B> {
         self.near.reserve(self.told + self.told / 2);
         let is_known = self.sweep.sweep_all(&self.loose, true, admit, most, &mut self.near).is_ok();
         self.spent = SWEPT[0] * boxes.len() + SWEPT[1] * self.near.len();
-        is_known || self.tighten()
+        if is_known { Source::Loose } else { self.give_up_loose() }
     }
 
-    /// Gives up loose boxes for some time.
-    fn tighten(&mut self) -> bool {
+    /// Gives up loose boxes for some time: they cost too much.
+    fn give_up_loose(&mut self) -> Source {
         self.sweep.forget();
         self.state = State::Boxes { frames: self.patience };
         self.patience = (2 * self.patience).min(PATIENCE[1]);
-        false
+        Source::Boxes
     }
 
     /// Finds the boxes that have changed, are new, or have left their loose ones.
@@ -318,9 +343,9 @@ impl<B: Bounds> LooseSweep<B> {
     }
 
     /// Makes new loose boxes for the few that have left theirs, and looks these up.
-    fn look_up(&mut self, boxes: &[B], admit: &Admit) -> bool {
+    fn look_up_strays(&mut self, boxes: &[B], admit: &Admit) -> Source {
         if self.strays.is_empty() {
-            return true;
+            return Source::Loose;
         }
         let strays = core::mem::take(&mut self.strays);
         for &place in &strays {
@@ -329,7 +354,7 @@ impl<B: Bounds> LooseSweep<B> {
         let most = 2 * self.told + boxes.len();
         let is_known = self.sweep.update_by(&self.loose, &strays, admit, most, &mut self.near).is_ok();
         self.strays = strays;
-        is_known || self.tighten()
+        if is_known { Source::Loose } else { self.give_up_loose() }
     }
 
     /// Makes a loose box for a box, unless it is still inside its old one.
