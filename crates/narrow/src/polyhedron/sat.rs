@@ -20,6 +20,18 @@
 //! An axis that is slightly off shows slightly less separation than the true one, never more. The possible shortfall is
 //! kept beside the best separation ([`Axes::short`]): edges at a small angle widen their own pair's error only.
 //!
+//! Words for separations, and for differences between them, in metres:
+//!
+//! ```text
+//! known       one that the caller is certain of; `floor`: the greatest one that is certain so far
+//! stake       that of the best axis so far, or the floor where that alone left all axes out
+//! unproved    that of the axis from which a walk failed before: nothing below is walked from again
+//! keep        an axis that falls short of the floor by no more is evaluated, since a contact may be built on it
+//! even        an edge pair that beats the best face by no more counts as even with it, and is left out
+//! ceiling     no axis truly shows more: each axis raises it by what it shows and its error, and so do even pairs
+//! slack       how far two edges may lie off the supporting planes of their axis; `aside`: how far they do
+//! ```
+//!
 //! What makes it cheap, and what each measure saved on two hulls of 32 vertices (AMD EPYC, Zen 4, 2026-11-21; the plain
 //! test took 52 us on mixed pairs and 85 on deeply overlapping ones, and now takes 1.6 and 6.5):
 //!
@@ -76,11 +88,11 @@ mod facet;
 mod grow;
 mod hinted;
 mod level;
+mod search;
 mod walk;
 
 use super::solid::Solid;
 use crate::counted::count_steps;
-use crate::precision::Precision;
 pub(crate) use across::across_edges;
 use arcs::{for_edge_pairs, for_many_edge_pairs};
 use arrayvec::ArrayVec;
@@ -92,6 +104,7 @@ use cull::{Heights, Sight};
 pub(crate) use facet::in_polygon;
 use grow::{Bound, grow};
 pub(crate) use hinted::{Hinted, hint_of, hint_to, hint_with, last_of};
+pub(crate) use search::Search;
 pub(crate) use walk::Ended;
 
 /// Edges of a hull with the most vertices, by Euler's formula.
@@ -106,38 +119,9 @@ const MANY_PAIRS: usize = 1600;
 /// Vertices kept of each solid to show that an axis is not the best.
 const MOST_SUPPORTS: usize = 6;
 
-/// What is asked of the test.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Search<'a> {
-    /// A separation that is certain: axes that show less by more than [`Search::keep`] are left out.
-    pub(crate) known: f64,
-    /// The separation along an axis from which a walk did not succeed, last frame's or a face's: no walk starts from a
-    /// face that shows no more.
-    pub(crate) unproved: f64,
-    /// How far two edges may lie off the supporting planes of their own axis.
-    pub(crate) slack: f64,
-    pub(crate) precision: &'a Precision,
-}
-
-impl Search<'_> {
-    /// By how much an axis may fall short of the best and still be kept, since a contact may be built on it.
-    fn keep(&self) -> f64 {
-        4.0 * (self.slack + self.precision.projection())
-    }
-
-    /// By how much an edge pair may beat the best face and still count as even with it: nothing next to the rounding of
-    /// the answer to f32.
-    ///
-    /// Where the edges' arcs end at the same normal, or the edges are parallel, as between two prisms, every pair has
-    /// the axis of a face up to rounding: tested one by one, two prisms of 128 sides in one place took 14 ms.
-    fn even(&self, best: f64) -> f64 {
-        64.0 * self.precision.projection() + best.abs() * f64::from(f32::EPSILON) / 128.0
-    }
-}
-
 /// The best axis of each kind.
 pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
-    begun((a, b), search, |mut found, sights, first| {
+    with_first_faces((a, b), search, |mut found, sights, first| {
         // A face that shows no more than the axis from which a walk did not succeed is no better a start.
         if found.axes.best().separation > search.unproved
             && let Some(first) = found.first_hinted(&first, search)
@@ -158,12 +142,12 @@ pub(crate) fn separating_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
 
 /// The axis of the most promising face of both solids: where to start when nothing is known about them.
 pub(crate) fn first_axis(a: &Solid, b: &Solid, search: &Search) -> Option<Hinted> {
-    begun((a, b), search, |found, _, first| found.first_hinted(&first, search))
+    with_first_faces((a, b), search, |found, _, first| found.first_hinted(&first, search))
 }
 
 /// [`separating_axes`] by faces alone, for solids separated by a gap.
 pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
-    begun((a, b), search, |mut found, sights, first| {
+    with_first_faces((a, b), search, |mut found, sights, first| {
         found.by_faces(sights, &first, search);
         found.axes
     })
@@ -172,9 +156,10 @@ pub(crate) fn face_axes(a: &Solid, b: &Solid, search: &Search) -> Axes {
 /// The most promising face of A and of B, each with the other solid's deepest vertex against it.
 type First = [Option<[usize; 2]>; 2];
 
-/// Evaluates the most promising faces, then hands over to `go_on`.
+/// Evaluates the most promising faces, and passes the state of the test on to `go_on`. It is not returned, since the
+/// sights borrow what is on the stack here: heights over all faces, too many to be copied.
 #[inline(always)]
-fn begun<R>(
+fn with_first_faces<R>(
     (a, b): (&Solid, &Solid),
     search: &Search,
     go_on: impl FnOnce(Found, &mut [Sight; 2], First) -> R,
@@ -231,9 +216,12 @@ impl Found {
     fn by_faces(&mut self, sights: &mut [Sight; 2], first: &First, search: &Search) {
         for (which, sight) in sights.iter_mut().enumerate() {
             let pair = [sight.solid, sight.other];
-            let known = first[which].map(|[face, _]| face);
+            let evaluated = first[which].map(|[face, _]| face);
             sight.for_faces(self.floor - search.keep(), |face| {
-                let vertex = if Some(face) != known { self.by_face(pair, which, face, search) } else { 0 };
+                // Any vertex may be culled by, and the deepest one is a point already. None would do as well, but then
+                // other pairs would be culled, and error bounds be others.
+                let vertex =
+                    if Some(face) == evaluated { 0 } else { self.by_face(pair, which, face, search) };
                 (vertex, self.floor - search.keep())
             });
         }
@@ -290,7 +278,7 @@ impl Found {
             }
             let at_b = EdgeAt::new(b, edge_b);
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
-            if !self.is_settled([&at_a, &at_b], &cross, search) {
+            if !self.rule_out_by_edges([&at_a, &at_b], &cross, search) {
                 self.by_edge_pair((a, b), [&at_a, &at_b], &cross, search);
             }
         });
@@ -306,12 +294,12 @@ impl Found {
     #[inline(never)]
     fn by_growing(&mut self, solids: (&Solid, &Solid), search: &Search) -> Option<()> {
         let precision = search.precision;
-        let slack = search.even(self.stake());
+        let even = search.even(self.stake());
         // Infinite while no axis was evaluated: then there is nothing to prove, and the depth has to be found.
         let known_depth = -self.axes.best().separation;
-        let Bound { at_least, met } = grow(solids, (known_depth, slack), precision)?;
+        let Bound { at_least, met } = grow(solids, (known_depth, even), precision)?;
         if let Some(facet) = met {
-            let least = -at_least - 2.0 * slack - precision.planarity;
+            let least = -at_least - 2.0 * even - precision.planarity;
             let is_it = |hinted: &Hinted| hinted.axis.separation >= least;
             let hinted = walk::facet_of(solids, &facet, precision, is_it)?;
             self.offer(hinted.axis);
@@ -338,17 +326,16 @@ impl Found {
             }
             let at_b = &all_b[place_b];
             let cross = Cross::outwards((at_a.along, out_of_a), at_b.along, || b.out_of_edge(edge_b));
-            if !self.is_settled([&at_a, at_b], &cross, search) {
+            if !self.rule_out_by_edges([&at_a, at_b], &cross, search) {
                 self.by_edge_pair((a, b), [&at_a, at_b], &cross, search);
             }
         });
     }
 
-    /// Whether the two edges by themselves show that their axis is not the best, or no more than even with the best
-    /// face: they never show less than the true separation. No division: everything stays scaled by the length of the
-    /// cross product.
+    /// [`Found::rule_out_by_bound`] by the two edges themselves: they never show less than the true separation. No
+    /// division: everything stays scaled by the length of the cross product.
     #[inline(always)]
-    fn is_settled(&mut self, edges: [&EdgeAt; 2], cross: &Cross, search: &Search) -> bool {
+    fn rule_out_by_edges(&mut self, edges: [&EdgeAt; 2], cross: &Cross, search: &Search) -> bool {
         // Counted as two steps: it takes 6 ns.
         count_steps(2);
         if cross.is_noise() {
@@ -356,13 +343,14 @@ impl Found {
         }
         let length = cross.axis.length();
         let shown = cross.axis.dot(edges[1].from - edges[0].from);
-        self.is_too_little(shown, (cross, length), search)
+        self.rule_out_by_bound(shown, (cross, length), search)
     }
 
-    /// Whether the separation shown along the axis of two edges is no more than that of the best axis so far, or than
-    /// counts as even with the best face. `shown` is scaled by the length of the cross product.
+    /// Rules out the axis of two edges if the separation `shown` along it is no more than that of the best axis so far,
+    /// or than counts as even with the best face: then the ceiling is raised by what is left out. Returns whether it
+    /// is ruled out. `shown` is scaled by the length of the cross product.
     #[inline(always)]
-    fn is_too_little(&mut self, shown: f64, (cross, length): (&Cross, f64), search: &Search) -> bool {
+    fn rule_out_by_bound(&mut self, shown: f64, (cross, length): (&Cross, f64), search: &Search) -> bool {
         // Twice the error of an edge pair's axis, which is that of a projection over the sine of their angle. Scaled by
         // the length of the cross product, that is a projection's error times both edges' lengths, whose product is at
         // most half the sum of their squares.
@@ -390,11 +378,11 @@ impl Found {
         // Counted as five steps: it takes 20 ns.
         count_steps(5);
         let precision = search.precision;
-        if cross.is_noise() && self.are_parallel(cross, search) {
+        if cross.is_noise() && self.rule_out_parallel(cross, search) {
             return;
         }
         let length = cross.axis.length();
-        if self.shows_too_little((cross, length), search) {
+        if self.rule_out_by_supports((cross, length), search) {
             return;
         }
         let normal = cross.axis / length;
@@ -415,8 +403,9 @@ impl Found {
         }
     }
 
-    /// Whether edges are so nearly parallel that the most their axis could add to the best one is negligible.
-    fn are_parallel(&mut self, cross: &Cross, search: &Search) -> bool {
+    /// Rules out the axis of edges so nearly parallel that the most it could add to the best one is negligible, and
+    /// records that as left out. Returns whether it is ruled out.
+    fn rule_out_parallel(&mut self, cross: &Cross, search: &Search) -> bool {
         let by_angle = search.precision.of_parallel_edges(cross.squared_sine());
         let is_nothing = by_angle <= search.even(self.stake());
         if is_nothing {
@@ -432,9 +421,8 @@ impl Found {
         more > rounding || more >= -rounding && aside < self.aside - rounding
     }
 
-    /// Whether the vertices seen so far show that the axis of two edges is not the best, or no more than even with the
-    /// best face: they never show less than the true separation.
-    fn shows_too_little(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
+    /// [`Found::rule_out_by_bound`] by the vertices seen so far: they never show less than the true separation.
+    fn rule_out_by_supports(&mut self, (cross, length): (&Cross, f64), search: &Search) -> bool {
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (_, point) in &self.supports[1] {
             lowest = lowest.min(cross.axis.dot(*point));
@@ -442,7 +430,7 @@ impl Found {
         for (_, point) in &self.supports[0] {
             highest = highest.max(cross.axis.dot(*point));
         }
-        self.is_too_little(lowest - highest, (cross, length), search)
+        self.rule_out_by_bound(lowest - highest, (cross, length), search)
     }
 
     fn offer(&mut self, axis: Axis) {
