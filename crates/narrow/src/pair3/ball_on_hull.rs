@@ -52,9 +52,10 @@ impl Pair3<'_> {
         let ball = self.ball_by_hull(limit)?;
         let nearest = ball.with_walk(|walk| {
             let foremost = walk.foremost()?;
-            match walk.inside(foremost, &ball) {
-                Some(inside) => inside,
-                None => walk.proved(walk.from(foremost.0)?, foremost, &ball.precision),
+            match walk.place(foremost, &ball) {
+                Place::Inside(nearest) => Some(nearest),
+                Place::BesideThin => None,
+                Place::Outside => walk.proved(walk.from(foremost.0)?, foremost, &ball.precision),
             }
         });
         nearest.map(|nearest| ball.on_faces(nearest))
@@ -77,8 +78,10 @@ impl Pair3<'_> {
             if foremost.1 - doubt > radii {
                 return by_bound(false);
             }
-            if let Some(inside) = walk.inside(foremost, &ball) {
-                return inside.map(|nearest| ball.on_faces(nearest).verdict());
+            match walk.place(foremost, &ball) {
+                Place::Inside(nearest) => return Some(ball.on_faces(nearest).verdict()),
+                Place::BesideThin => return None,
+                Place::Outside => {}
             }
             let end = walk.from(foremost.0)?;
             // Any point of the hull is at least as far away as the nearest one.
@@ -120,12 +123,30 @@ impl<'p> BallOnHull<'p> {
     }
 }
 
+/// Where a point is before the walk.
+enum Place {
+    /// Behind all faces of a hull with volume, and over the foremost: that is the nearest place.
+    Inside(Nearest),
+    /// Behind all faces, and beside the foremost: beside a hull so thin that its sides were merged away. Left to the
+    /// general path.
+    BesideThin,
+    /// In front of some face, or the hull has no volume.
+    Outside,
+}
+
 /// Where the walk is: the index of a face, a half-edge or a vertex.
 #[derive(Clone, Copy)]
 enum At {
     Face(usize),
     Edge(usize),
     Vertex(usize),
+}
+
+/// One step of the walk.
+enum Step {
+    To(At),
+    /// No neighbouring feature is nearer. The point's foot on the feature where the walk ends.
+    End(DVec3),
 }
 
 /// A core in its own axes, and a point.
@@ -138,14 +159,15 @@ struct Walk<'s> {
 }
 
 impl Walk<'_> {
-    /// The nearest place for a point behind all faces of a hull with volume, else `None`. `Some(None)` if the point is
-    /// not over its foremost face: left to the general path.
-    fn inside(&self, (face, beyond): (usize, f64), ball: &BallOnHull) -> Option<Option<Nearest>> {
+    /// Where the point is, given its foremost face.
+    fn place(&self, (face, beyond): (usize, f64), ball: &BallOnHull) -> Place {
         if ball.hull.dimension() < 3 || beyond > 0.0 {
-            return None;
+            return Place::Outside;
         }
-        let is_over = self.side_beyond(face).is_none();
-        Some(is_over.then(|| self.over(face, beyond, 4.0 * ball.precision.planarity)))
+        match self.side_beyond(face) {
+            None => Place::Inside(self.over(face, beyond, 4.0 * ball.precision.planarity)),
+            Some(_) => Place::BesideThin,
+        }
     }
 
     /// The nearest place, from the point and feature where a walk ended; `None` if that is not proved.
@@ -193,20 +215,20 @@ impl Walk<'_> {
     fn from(&self, face: usize) -> Option<(DVec3, At)> {
         let mut at = At::Face(face);
         for _ in 0..MAX_STEPS {
-            let next = match at {
-                At::Face(face) => self
-                    .side_beyond(face)
-                    .map(At::Edge)
-                    .ok_or_else(|| self.point - self.normals[face] * self.height(face)),
+            let step = match at {
+                At::Face(face) => match self.side_beyond(face) {
+                    Some(side) => Step::To(At::Edge(side)),
+                    None => Step::End(self.point - self.normals[face] * self.height(face)),
+                },
                 At::Edge(edge) => self.beside_edge(edge),
-                At::Vertex(vertex) => self
-                    .edge_towards(vertex)
-                    .map(At::Edge)
-                    .ok_or_else(|| self.solid.vertices[vertex].as_dvec3()),
+                At::Vertex(vertex) => match self.edge_towards(vertex) {
+                    Some(edge) => Step::To(At::Edge(edge)),
+                    None => Step::End(self.solid.vertices[vertex].as_dvec3()),
+                },
             };
-            match next {
-                Ok(next) => at = next,
-                Err(foot) => return Some((foot, at)),
+            match step {
+                Step::To(next) => at = next,
+                Step::End(foot) => return Some((foot, at)),
             }
         }
         None
@@ -253,18 +275,18 @@ impl Walk<'_> {
         side
     }
 
-    /// The neighbouring feature of an edge that is nearer; if none is, `Err` with the point's foot on the edge.
-    fn beside_edge(&self, half_edge: usize) -> Result<At, DVec3> {
+    /// To the neighbouring feature of an edge that is nearer, if one is.
+    fn beside_edge(&self, half_edge: usize) -> Step {
         let topology = self.solid.topology;
         let (from, along) = self.edge(half_edge);
         let (start, end) = topology.ends(half_edge);
         let away = self.point - from;
         let place = away.dot(along) / along.length_squared();
         if place <= 0.0 {
-            return Ok(At::Vertex(start));
+            return Step::To(At::Vertex(start));
         }
         if place >= 1.0 {
-            return Ok(At::Vertex(end));
+            return Step::To(At::Vertex(end));
         }
         let foot = from + along * place;
         let edges = topology.half_edges();
@@ -272,10 +294,10 @@ impl Walk<'_> {
         for (face, along) in [(face, along), (other, -along)] {
             let face = usize::from(face);
             if self.normals[face].cross(along).dot(self.point - foot) > 0.0 {
-                return Ok(At::Face(face));
+                return Step::To(At::Face(face));
             }
         }
-        Err(foot)
+        Step::End(foot)
     }
 
     /// The edge from a vertex that leads the most towards the point, if any does.

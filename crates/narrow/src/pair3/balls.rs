@@ -71,6 +71,7 @@ impl Pair3<'_> {
             .or_else(|| pair.ball().map(|ball| ball.in_cuboid_axes().within(limit)))
     }
 
+    /// `Some(None)` for a pair that has a closed form and overlaps.
     #[inline]
     pub(super) fn distance_in_closed_form(&self) -> Option<Option<Closest3>> {
         let pair = self.with_closed_form()?;
