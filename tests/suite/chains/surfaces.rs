@@ -300,8 +300,10 @@ fn what_is_past_an_end_by_next_to_nothing_is_as_far_from_it_as_its_corner() {
         for (i, body) in bodies.iter().enumerate() {
             for k in 0..400 {
                 let gap = [1e-4, 1e-2, 0.3][k % 3] * (0.5 + noise(k));
-                let past =
-                    gap * 10_f64.powf(-4.0 - 5.0 * noise(k + 400)) * if k % 5 == 0 { -1.0 } else { 1.0 };
+                let past = gap
+                    * [1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9][k / 3 % 6]
+                    * (0.3 + noise(k + 400))
+                    * if k % 5 == 0 { -1.0 } else { 1.0 };
                 let tilted = Pose2::new([0.0, 0.0], turned(towards(0.2 * noise(k + 800) - 0.1))).unwrap();
                 let lowest = tilted.turn(body.support(tilted.turn_back(DVec2::NEG_Y)).unwrap());
                 let pose = tilted.with_position(DVec2::new(4.0 + past, gap) - lowest).unwrap();
