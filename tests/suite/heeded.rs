@@ -188,3 +188,45 @@ fn nothing_is_ahead_on_a_flat_floor() {
     }
     assert!(met > 500, "{met}");
 }
+
+/// Symptom: a body that slid over a crate made of two-sided ground had contacts with the insides of the crate's walls,
+/// which went on above the lid, and stopped in mid-air: 29 of 100 free motions in space, 38 in the plane. Cause: seen
+/// from inside, the edge between lid and wall is concave, and a body over the lid was taken to see the walls from there.
+#[test]
+fn the_insides_of_a_crates_walls_are_not_ahead_of_a_body_on_its_lid() {
+    let corners: Vec<Vec3> = Cuboid::from_half_extents(Vec3::ONE).unwrap().vertices().to_vec();
+    let number = |at: [f32; 3]| corners.iter().position(|corner| corner.to_array() == at).unwrap() as u32;
+    let mut faces = Vec::new();
+    for axis in 0..3 {
+        for side in [-1.0, 1.0] {
+            let corner = |one: f32, other: f32| {
+                let mut at = [side; 3];
+                (at[(axis + 1) % 3], at[(axis + 2) % 3]) = (one * side, other);
+                number(at)
+            };
+            let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+            faces.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    let crate3 = Shape3::from(TriMesh::new(corners.clone(), faces).unwrap());
+    for shape in bodies3() {
+        let mut world = World3::new();
+        let crate3 = world.insert(Collider3::new(crate3.clone()));
+        let body = world.insert(Collider3::new(shape).at(Pose3::at([0.5, 1.4, 0.1]).unwrap()));
+        world.set_motion(body, Motion3::shift([1.5, -0.4, 0.0]).unwrap()).unwrap();
+        world.update();
+        let contact = world.contact(crate3, body).unwrap();
+        assert!(contact.manifolds.iter().all(|it| it.normal.y > 0.999), "{:?}", contact.manifolds);
+    }
+    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(Vec2::from_array);
+    let square = Chain::closed(square).unwrap();
+    for shape in bodies2() {
+        let mut world = World2::new();
+        let crate2 = world.insert(Collider2::new(square.clone()));
+        let body = world.insert(Collider2::new(shape).at(Pose2::at([0.5, 1.4]).unwrap()));
+        world.set_motion(body, Motion2::shift([1.5, -0.4]).unwrap()).unwrap();
+        world.update();
+        let contact = world.contact(crate2, body).unwrap();
+        assert!(contact.manifolds.iter().all(|it| it.normal.y > 0.999), "{:?}", contact.manifolds);
+    }
+}

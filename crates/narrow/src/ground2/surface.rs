@@ -97,9 +97,10 @@ impl Surface {
     /// At which ends the next run rises on the body's side: concave corners.
     pub(crate) fn concave_ends(&self) -> [bool; 2] {
         let rises = |end: usize| {
-            let Some((next, _)) = self.neighbours[end] else { return false };
+            let Some((next, is_front)) = self.neighbours[end] else { return false };
             let leaving = if end == 1 { next } else { -next };
-            leaving.dot(self.normal) > ALONG_GROUND
+            // A body over the lid of a two-sided crate is behind the lid as its walls are seen from there.
+            is_front == self.is_front && leaving.dot(self.normal) > ALONG_GROUND
         };
         [rises(0), rises(1)]
     }

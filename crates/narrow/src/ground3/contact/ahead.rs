@@ -19,7 +19,7 @@
 //! 2026-11-29).
 
 use super::ball::nearest_to;
-use super::facet::{Facet, Furthest, across};
+use super::facet::{Facet, Furthest, across, front_of, widened};
 use super::groups::{Base, Pin};
 use super::over::Plane;
 use super::prism::Prism;
@@ -31,6 +31,9 @@ use asunder_geometry::tolerance::SAME_NORMAL;
 use asunder_geometry::{Ground, NearTriangle};
 use core::ops::ControlFlow;
 
+/// Share of a distance within which two triangles count as equally near: their nearest point is on a common edge.
+const EQUALLY_NEAR: f64 = 1e-9;
+
 impl PartTest<'_> {
     /// Adds points over the planes of triangles ahead.
     #[cold]
@@ -41,6 +44,7 @@ impl PartTest<'_> {
         if standing.outer_radius == f64::INFINITY {
             return;
         }
+        known.groups.fix();
         let _ = ground.read_near(&self.bounds, |near| {
             let radii = [standing.radius, standing.outer_radius];
             let facet = reach.facet(ground, near, standing.center, radii);
@@ -65,7 +69,7 @@ impl PartTest<'_> {
         if !reach.holds(separation) || is_hidden() {
             return;
         }
-        let open = [0, 1, 2].map(|edge| facet.is_concave(ground, edge));
+        let open = [0, 1, 2].map(|edge| facet.is_concave(ground, edge, standing.center));
         let (reach, doubt) = (reach.most, *doubt);
         let prism = Prism { ground, standing, facet, extent, reach, doubt, gate: None, ahead: Some(open) };
         self.add_by_normal(&prism, known);
@@ -78,6 +82,7 @@ impl Round {
     #[inline(never)]
     pub(super) fn look_ahead(&self, query: &GroundQuery, known: &mut Known) {
         let (ground, Some(reach)) = (query.on.ground, Reach::of(query, known)) else { return };
+        known.groups.fix();
         let _ = ground.read_near(&self.bounds(), |near| {
             if let Some(facet) = reach.facet(ground, near, self.center, [self.radius; 2]) {
                 let ball = (self.center, self.radius, facet.doubt((self.center, self.radius), self.lengths));
@@ -138,7 +143,7 @@ impl Reach {
     ) {
         let height = facet.height(center);
         if !self.holds(height - radius)
-            || !facet.is_ahead(ground, center, |edge| facet.is_concave(ground, edge))
+            || !facet.is_ahead(ground, [center; 2], |edge| facet.is_concave(ground, edge, center))
         {
             return;
         }
@@ -156,26 +161,66 @@ impl Reach {
 }
 
 impl Facet {
-    /// Whether ground rises beyond a side, on the side of the part.
-    fn is_concave(&self, ground: Ground, edge: usize) -> bool {
+    /// Whether ground rises beyond a side, on the side of the part, and has the part's centre on that side.
+    fn is_concave(&self, ground: Ground, edge: usize, center: DVec3) -> bool {
         ground.neighbor(self.number, edge).is_some_and(|(other, twin)| {
             let leaving = across(ground, other, twin);
             let rise = leaving.dot(self.normal);
-            rise > 0.0 && rise * rise > SAME_NORMAL * SAME_NORMAL * leaving.length_squared()
+            rise > 0.0
+                && rise * rise > SAME_NORMAL * SAME_NORMAL * leaving.length_squared()
+                && self.has_same_side(ground, other, center)
         })
     }
 
-    /// Whether a point's foot is beyond an open side, and the triangle's nearest point on that or at an end of it; or at
-    /// a corner that may not give the direction to the point.
-    pub(super) fn is_ahead(&self, ground: Ground, point: DVec3, is_open: impl Fn(usize) -> bool) -> bool {
+    /// Whether a point is on that side of another triangle's plane from which this one is seen.
+    ///
+    /// Two-sided ground behind a convex edge, like the far wall of a crate seen from above its lid, bends towards the
+    /// side from which no body that is over the edge can come.
+    fn has_same_side(&self, ground: Ground, other: u32, point: DVec3) -> bool {
+        let corners = ground.corners(other);
+        let height = front_of(corners).dot(point - widened(corners)[0]);
+        if self.is_front { height >= 0.0 } else { height <= 0.0 }
+    }
+
+    /// The same for the part's centre and the triangle nearest to a point among those around a corner; of equally near
+    /// ones, for all.
+    fn has_same_side_around(&self, ground: Ground, corner: usize, [point, center]: [DVec3; 2]) -> bool {
+        let (mut nearest, mut is_same) = (f64::INFINITY, true);
+        self.do_all_around(ground, corner, |other, _| {
+            if let Some(facet) = Self::front_of(other, ground.corners(other)) {
+                let distance = match nearest_to(&facet, point) {
+                    (Furthest::Face, _) => facet.height(point).abs(),
+                    (_, at) => (point - at).length(),
+                };
+                let is_other_same = self.has_same_side(ground, other, center);
+                if distance < nearest * (1.0 - EQUALLY_NEAR) {
+                    (nearest, is_same) = (distance, is_other_same);
+                } else if distance <= nearest * (1.0 + EQUALLY_NEAR) {
+                    is_same &= is_other_same;
+                }
+            }
+            true
+        });
+        is_same
+    }
+
+    /// Whether a point of a part with this centre has its foot beyond an open side, and the triangle's nearest point on
+    /// that or at an end of it; or at a corner that may not give the direction to the point.
+    pub(super) fn is_ahead(
+        &self,
+        ground: Ground,
+        [point, center]: [DVec3; 2],
+        is_open: impl Fn(usize) -> bool,
+    ) -> bool {
         let is_beyond = |edge: usize| self.inside(point, |other| other == edge) < 0.0 && is_open(edge);
         match nearest_to(self, point) {
             (Furthest::Face, _) => false,
             (Furthest::Edge(edge), _) => is_beyond(edge),
             (Furthest::Corner(corner), at) => {
-                is_beyond(corner)
-                    || is_beyond((corner + 2) % 3)
-                    || !self.may_give(ground, Furthest::Corner(corner), (point - at).normalize_or_zero())
+                let is_rejected =
+                    || !self.may_give(ground, Furthest::Corner(corner), (point - at).normalize_or_zero());
+                (is_beyond(corner) || is_beyond((corner + 2) % 3) || is_rejected())
+                    && self.has_same_side_around(ground, corner, [point, center])
             }
         }
     }
@@ -192,7 +237,8 @@ impl Prism<'_> {
     #[inline(always)]
     pub(super) fn is_wanted(&self, pin: &Pin) -> bool {
         let is_ahead = |open: [bool; 3]| {
-            pin.separation > 0.0 && self.facet.is_ahead(self.ground, pin.on_body, |edge| open[edge])
+            pin.separation > 0.0
+                && self.facet.is_ahead(self.ground, [pin.on_body, self.standing.center], |edge| open[edge])
         };
         self.ahead.is_none_or(is_ahead)
     }

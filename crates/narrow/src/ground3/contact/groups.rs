@@ -4,7 +4,7 @@
 //! a normal within the tolerance of a group's joins that group, whose normal is the one of its largest triangle
 //! a point that is there already, by feature ids or by position, is kept once: the deeper
 //! a group that is full:           only the corners of the area that its points cover stay
-//! too many normals:               the deepest groups stay
+//! too many normals:               the deepest groups stay, but those of ground ahead make room for all others
 //! normals that came to be equal:  their groups are joined
 //! at last:                        the corners around the patch, at most four, and always one as deep as any
 //! ```
@@ -72,6 +72,8 @@ pub(super) struct Groups {
     even: f64,
     /// Deeper points are left out, in metres.
     floor: f64,
+    /// How many groups, the first ones, keep their place, normal and patch whatever is added.
+    fixed: usize,
 }
 
 impl Pin {
@@ -100,13 +102,19 @@ impl Pin {
 impl Groups {
     #[inline(always)]
     pub(super) fn new(slack: f64, even: f64) -> Self {
-        Self { groups: ArrayVec::new(), slack, even, floor: f64::NEG_INFINITY }
+        Self { groups: ArrayVec::new(), slack, even, floor: f64::NEG_INFINITY, fixed: 0 }
     }
 
     /// Leaves out points that are deeper than this from now on, in metres.
     #[inline]
     pub(super) fn leave_out(&mut self, below: f64) {
         self.floor = below;
+    }
+
+    /// Fixes all groups that there are: what is added from now on may join them, but neither replaces one nor changes
+    /// its normal.
+    pub(super) fn fix(&mut self) {
+        self.fixed = self.groups.len();
     }
 
     /// The separation below which points are left out, in metres.
@@ -158,8 +166,12 @@ impl Groups {
             return;
         }
         let slack = self.slack;
-        if let Some(group) = self.groups.iter_mut().find(|group| is_same(group.base.normal, base.normal)) {
-            group.base.join(base);
+        let same =
+            self.groups.iter_mut().enumerate().find(|(_, group)| is_same(group.base.normal, base.normal));
+        if let Some((place, group)) = same {
+            if place >= self.fixed {
+                group.base.join(base);
+            }
             group.add(pin, [slack, self.even]);
             return;
         }
@@ -167,6 +179,7 @@ impl Groups {
             let shallowest = self
                 .groups
                 .iter_mut()
+                .skip(self.fixed)
                 .reduce(|most, next| if next.found() > most.found() { next } else { most });
             if let Some(shallowest) = shallowest.filter(|group| group.found() > pin.separation) {
                 (shallowest.base, shallowest.recorded, shallowest.hidden) = (*base, NOTHING_RECORDED, 0.0);
@@ -244,9 +257,13 @@ impl Groups {
                 place += 1;
                 continue;
             };
-            let Group { base, pins, recorded, hidden } = self.groups.remove(place + 1 + same);
+            let other = place + 1 + same;
+            let Group { base, pins, recorded, hidden } = self.groups.remove(other);
             let group = &mut self.groups[place];
-            group.base.join(&base);
+            if place >= self.fixed || other < self.fixed {
+                group.base.join(&base);
+            }
+            self.fixed -= usize::from(other < self.fixed);
             group.record(recorded);
             group.hidden = group.hidden.max(hidden);
             pins.into_iter().for_each(|pin| group.add(pin, sizes));
