@@ -1,4 +1,4 @@
-//! A platformer character in 2D jumps onto a ledge that is solid only from above, and a lift of the same kind carries it.
+//! A platformer character in 2D jumps onto a ledge that is solid only from above; a lift of the same kind carries it.
 
 use asunder::glam::{DVec2, Vec2};
 use asunder::{Capsule2, Collider2, Filter2, Pose2, Rect, Shape2, Walk2, World2};

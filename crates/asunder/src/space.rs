@@ -188,8 +188,7 @@ pub trait Space: sealed::Sealed + Copy + Debug + Eq + 'static {
     #[doc(hidden)]
     fn least_separation(manifolds: &[Self::Manifold]) -> f32;
 
-    /// A job from two bodies; `margin` is the sum of theirs, and of `ahead`, by which their motions may bring them
-    /// nearer.
+    /// A job from two bodies; the margin includes what is `ahead`: by how much their motions may bring them nearer.
     #[doc(hidden)]
     fn job<'a>(bodies: [&'a Collider<Self>; 2], margin_and_ahead: [f32; 2], hint: Hint) -> Self::Job<'a>;
 

@@ -138,8 +138,7 @@ impl World<Plane> {
     ///   whose separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer
     ///   their motions can bring them. A pair with a sensor has no speculative contact.
     /// - For a [`bullet`](Collider2::bullet) there are [`impacts`](Self::impacts) as well; these do include sensors.
-    /// - On a chain, they include slopes that begin further along the same floor, if the motion is as long as the way to
-    ///   them: each along the slope's normal, as if the slope went on below the floor.
+    /// - On a chain, they include slopes that begin further along the same floor, within the length of the motion.
     /// - A one-sided chain has no speculative contact with a part whose centre is behind its front before the motions.
     ///   For an impact, the side on which the part's centre is when the two first touch counts. So a body that rises
     ///   beside the tip of a ledge may have an impact with it, but no contact.

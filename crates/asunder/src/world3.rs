@@ -138,8 +138,7 @@ impl World<Volume> {
     ///   whose separation is at most the sum of their margins plus an upper bound (at most 1e6 m) on how much nearer
     ///   their motions can bring them. A pair with a sensor has no speculative contact.
     /// - For a [`bullet`](Collider3::bullet) there are [`impacts`](Self::impacts) as well; these do include sensors.
-    /// - On ground, they include slopes that begin further along the same floor, if the motion is as long as the way to
-    ///   them: each along the slope's normal, as if the slope went on below the floor.
+    /// - On ground, they include slopes that begin further along the same floor, within the length of the motion.
     /// - A one-sided triangle of ground has neither a speculative contact nor an impact with a part that is clear of it
     ///   and whose centre is behind its front before the motions. So a body that rises beside the edge of a ledge
     ///   passes it.

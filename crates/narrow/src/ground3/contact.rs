@@ -144,7 +144,8 @@ use whole::touching;
 const MOST_UNCLEAR: usize = 32;
 
 /// Whether a body and ground overlap, if they are within the margin, of which motions may use up some metres; their
-/// manifolds go where they are wanted. `None` where neither shape is ground. Two grounds have no contacts with each other.
+/// manifolds go where they are wanted. `None` where neither shape is ground. Two grounds have no contacts with each
+/// other.
 pub(crate) fn contact_on_ground(
     pair: &Pair3,
     margin_and_ahead: [f32; 2],

@@ -1,8 +1,8 @@
 //! Ground ahead of a body in motion: runs of a chain beyond a concave corner.
 //!
 //! Contacts are with the ground that a body is opposite now. At the foot of a slope, the slope's nearest point is a
-//! concave corner, which gives no normal (see `ground2::surface`), so a body that comes to the slope within this frame would
-//! have no contact with it before it is inside. For a pair with a motion a second pass adds those contacts:
+//! concave corner, which gives no normal (see `ground2::surface`), so a body that comes to the slope within this frame
+//! would have no contact with it before it is inside. For a pair with a motion a second pass adds those contacts:
 //!
 //! ```text
 //! for each run near the part that the part sees:
