@@ -38,16 +38,16 @@ pub struct Contact<'a, K, M> {
     /// Whether the bodies are further apart than their margins, and listed only because their motions may bring them
     /// together. Such a pair does not count as touching, and has no `Began`, until it overlaps.
     ///
-    /// A solver that lets no point close by more than its separation prevents tunnelling of bodies that do not turn,
-    /// except through ground: there manifolds are with the ground that the body faces now, and a slope that begins
-    /// further along the same floor has none (guide: levels).
+    /// A solver that lets no point close by more than its separation prevents tunnelling of bodies that do not turn;
+    /// through ground of triangles a few motions in ten thousand lead nevertheless (guide: levels).
     pub speculative: bool,
     /// The manifolds: one for each pair of convex parts within the margins; on ground, one for each normal of each
     /// part. Normals point from `a` to `b`.
     ///
     /// - If the bodies have motions, there are also manifolds of parts that these may bring together, even if other
     ///   parts touch. A solver that does not handle speculative points should skip those whose separation is more than
-    ///   the sum of both margins.
+    ///   the sum of both margins. On ground, slopes that begin further along have one each, whose points lie on the
+    ///   slope's plane, and may lie below the floor before it.
     /// - The separation of a manifold is that of its own two parts; on ground, the one along its own normal. The least
     ///   separation of all manifolds is at most zero exactly when the bodies overlap.
     /// - For overlapping bodies, moving by that least separation does not free the whole body: a body in a corner, or

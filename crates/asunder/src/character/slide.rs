@@ -154,8 +154,8 @@ impl<S: Walks> Mover<'_, S> {
     /// Frees the shape from solids that it overlaps, or moves it away from those closer than its skin. Returns the
     /// first pose at which it was free.
     ///
-    /// A character that goes into a wall by less than a skin meets nothing on the way, and is back here with the next
-    /// call: so that wall is noted here.
+    /// A character that stands a skin from a wall and moves towards it by less than that meets nothing on the way: it is
+    /// only moved away again here, at the next call. So such a wall is noted among the walls here.
     fn keep_away(&mut self, displacement: S::Point, slid: &mut Slid<S>) -> S::Pose {
         let skin = self.gait.skin;
         let mut near = near(self.world, (self.shape, &self.pose), skin, &self.filter);
