@@ -102,7 +102,7 @@ fn bodies_that_heed_their_contacts_pass_no_chain() {
     assert!(tried > 30_000, "{tried}");
 }
 
-/// The same on height fields, where it was one motion in 17.
+/// The same on height fields, where it was one motion in 16.
 #[test]
 fn bodies_that_heed_their_contacts_pass_no_height_field() {
     let mut random = Random::new(3);

@@ -195,6 +195,7 @@ impl<'a> Job3<'a> {
         let first = batch.manifolds.len() as u32;
         let mut wanted = (!self.sensor).then_some(&mut batch.manifolds);
         let pair = self.pair();
+        // Only on ground does it matter what the margin is for.
         if self.ahead > 0.0
             && let Some(found) = contact_on_ground(&pair, [self.margin, self.ahead], &mut wanted)
         {

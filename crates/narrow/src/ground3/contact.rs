@@ -242,11 +242,11 @@ impl<'a> GroundQuery<'a> {
     /// Whether a part overlaps, if it is within the margin. Once another part is known to overlap, this part's own
     /// decision does not matter.
     fn contact_of(&self, part: Part<'a>, is_overlap_known: bool, manifolds: &mut impl Room) -> Option<bool> {
-        if let (Shape3::Sphere(sphere), false) = (part.shape, self.is_plain) {
-            let round = Round::new(self.on, &part, sphere.radius().into(), self.reach);
-            if let Some(found) = round.contact(self, part, is_overlap_known, manifolds) {
-                return found;
-            }
+        if !self.is_plain
+            && let Some(round) = Round::of(self, &part)
+            && let Some(found) = round.contact(self, part, is_overlap_known, manifolds)
+        {
+            return found;
         }
         self.contact_in_general(part, is_overlap_known, manifolds)
     }
@@ -290,7 +290,10 @@ impl<'a> GroundQuery<'a> {
         test.conclude(&mut known, is_overlap_known);
         test.bound_least(&mut known, manifolds.is_wanted());
         if self.ahead > 0.0 && manifolds.is_wanted() {
-            test.look_ahead(&mut known);
+            match Round::of(self, &part) {
+                Some(round) => round.look_ahead(self, &mut known),
+                None => test.look_ahead(&mut known),
+            }
         }
         self.answer(part, &mut known, is_overlap_known, manifolds)
     }
@@ -403,15 +406,12 @@ impl PartTest<'_> {
     #[cold]
     #[inline(never)]
     fn add_last(&self, number: u32, known: &mut Known) {
-        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
+        let standing = self.standing;
         if let Shape3::HalfSpace(half_space) = standing.part.shape {
             return self.add_lowest_corner(number, standing.place.axes.turn(half_space.unit_normal()), known);
         }
-        let Some(facet) = Facet::facing(ground, number, standing.center) else { return };
-        let extent = standing.extent(facet.normal, facet.origin());
-        let doubt = self.doubt_over(&facet);
-        let prism =
-            Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None, ahead: None };
+        let Some(plane) = self.plane_of(number) else { return };
+        let prism = self.prism_over(&plane);
         let base = prism.base();
         if !prism.is_lowest_over() {
             let prism = Prism { reach: touching(), ..prism };
@@ -421,7 +421,7 @@ impl PartTest<'_> {
             return self.add_whole(known);
         }
         let mut pin = prism.lowest();
-        pin.on_ground = nearest_to(&facet, pin.on_ground).1;
+        pin.on_ground = nearest_to(&plane.facet, pin.on_ground).1;
         known.groups.add(&base, pin);
     }
 

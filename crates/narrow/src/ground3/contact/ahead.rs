@@ -20,7 +20,7 @@
 //! 2026-11-29).
 
 use super::ball::nearest_to;
-use super::facet::{Facet, Furthest, across, front_of, widened};
+use super::facet::{Facet, Furthest, across};
 use super::groups::{Base, Pin};
 use super::over::Plane;
 use super::prism::Prism;
@@ -42,43 +42,38 @@ impl PartTest<'_> {
     pub(super) fn look_ahead(&self, known: &mut Known) {
         let (ground, standing) = (self.query.on.ground, self.standing);
         let Some(reach) = Reach::of(self.query, known) else { return };
+        // A half-space has a single normal.
         if standing.outer_radius == f64::INFINITY {
             return;
         }
         known.groups.fix();
         let _ = ground.read_near(&self.bounds, |near| {
             let radii = [standing.radius, standing.outer_radius];
-            let facet = reach.facet(ground, near, standing.center, radii);
-            match facet {
-                Some(facet) if self.is_ball => {
-                    let ball = (standing.center, standing.radius, self.doubt_over(&facet));
-                    reach.add_ball(ball, (ground, &facet), known);
-                }
-                Some(facet) => self.add_ahead(facet, &reach, known),
-                None => {}
+            if let Some(facet) = reach.facet(ground, near, standing.center, radii) {
+                self.add_ahead(facet, &reach, known);
             }
             ControlFlow::Continue(())
         });
     }
 
     fn add_ahead(&self, facet: Facet, reach: &Reach, known: &mut Known) {
-        let (ground, standing) = (self.query.on.ground, self.standing);
-        let Plane { facet, extent, doubt, .. } = &self.over(facet);
+        let standing = self.standing;
+        let plane = self.over(facet);
+        let Plane { facet, extent, .. } = &plane;
         let separation = extent.low - standing.radius;
         // Another triangle of the same normal is nearer.
         let is_hidden = || separation > known.groups.least_along(facet.normal) + standing.slack;
         if !reach.holds(separation) || is_hidden() {
             return;
         }
-        let open = [0, 1, 2].map(|edge| facet.is_concave(ground, edge, standing.center));
-        let (reach, doubt) = (reach.most, *doubt);
-        let prism = Prism { ground, standing, facet, extent, reach, doubt, gate: None, ahead: Some(open) };
+        let open = [0, 1, 2].map(|edge| facet.is_concave(self.query.on.ground, edge, standing.center));
+        let prism = Prism { reach: reach.most, ahead: Some(open), ..self.prism_over(&plane) };
         self.add_by_normal(&prism, known);
     }
 }
 
 impl Round {
-    /// The same for a sphere on its fast path.
+    /// The same for a sphere, whichever path has found its other contacts.
     #[cold]
     #[inline(never)]
     pub(super) fn look_ahead(&self, query: &GroundQuery, known: &mut Known) {
@@ -163,6 +158,9 @@ impl Reach {
 
 impl Facet {
     /// Whether ground rises beyond a side, on the side of the part, and has the part's centre on that side.
+    ///
+    /// The latter since two-sided ground behind a convex edge, like the far wall of a crate seen from above its lid,
+    /// bends towards the side from which no body that is over the edge can come.
     fn is_concave(&self, ground: Ground, edge: usize, center: DVec3) -> bool {
         ground.neighbor(self.number, edge).is_some_and(|(other, twin)| {
             let leaving = across(ground, other, twin);
@@ -173,18 +171,8 @@ impl Facet {
         })
     }
 
-    /// Whether a point is on that side of another triangle's plane from which this one is seen.
-    ///
-    /// Two-sided ground behind a convex edge, like the far wall of a crate seen from above its lid, bends towards the
-    /// side from which no body that is over the edge can come.
-    fn has_same_side(&self, ground: Ground, other: u32, point: DVec3) -> bool {
-        let corners = ground.corners(other);
-        let height = front_of(corners).dot(point - widened(corners)[0]);
-        if self.is_front { height >= 0.0 } else { height <= 0.0 }
-    }
-
-    /// The same for the part's centre and the triangle nearest to a point among those around a corner; of equally near
-    /// ones, for all.
+    /// The same for a corner: whether the part's centre is on the side from which this triangle is seen, judged by the
+    /// triangle nearest to a point among those around the corner; of equally near ones, by all.
     fn has_same_side_around(&self, ground: Ground, corner: usize, [point, center]: [DVec3; 2]) -> bool {
         let (mut nearest, mut is_same) = (f64::INFINITY, true);
         self.do_all_around(ground, corner, |other, _| {

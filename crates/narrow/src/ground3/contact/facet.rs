@@ -390,11 +390,13 @@ impl Facet {
     /// If so, edges that bend towards this side may be where the ground ends for it: a body beside a cliff and lower
     /// than its top is behind the top, and still in front of the wall.
     pub(super) fn sees_otherwise(&self, ground: Ground, corner: usize, point: DVec3) -> bool {
-        let is_same = |number: u32, _| {
-            let corners = ground.corners(number);
-            (front_of(corners).dot(point - corners[0].as_dvec3()) >= 0.0) == self.is_front
-        };
-        !self.do_all_around(ground, corner, is_same)
+        !self.do_all_around(ground, corner, |other, _| self.has_same_side(ground, other, point))
+    }
+
+    /// Whether a point is on that side of another triangle's plane from which this one is seen.
+    pub(super) fn has_same_side(&self, ground: Ground, other: u32, point: DVec3) -> bool {
+        let corners = ground.corners(other);
+        (front_of(corners).dot(point - corners[0].as_dvec3()) >= 0.0) == self.is_front
     }
 
     /// From a half-edge towards the third corner, square to the edge.

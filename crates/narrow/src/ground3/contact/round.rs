@@ -20,12 +20,12 @@ use super::facet::{Facet, Furthest, is_same, widened};
 use super::standing::doubt_of;
 use super::{GroundQuery, Known};
 use crate::ground3::bounds::way_from;
-use crate::ground3::near::{OnGround, grown_around};
+use crate::ground3::near::grown_around;
 use crate::pair3::Part;
 use crate::room::Room;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::FACE_PREFERENCE;
-use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent};
+use asunder_geometry::{Aabb3, Ground, NearTriangle, Prominent, Shape3};
 use core::ops::ControlFlow;
 
 /// More than products lose to rounding here, as a share of lengths. A needle's normal may be off by more, but the
@@ -44,11 +44,13 @@ pub(super) struct Round {
 }
 
 impl Round {
-    /// What matters of a placed sphere.
+    /// What matters of a part, if it is a sphere.
     #[inline]
-    pub(super) fn new(on: &OnGround, part: &Part, radius: f64, reach: f64) -> Self {
-        let (center, summed) = on.origin_of(part);
-        Self { center, radius, lengths: summed + radius, reach }
+    pub(super) fn of(query: &GroundQuery, part: &Part) -> Option<Self> {
+        let Shape3::Sphere(sphere) = part.shape else { return None };
+        let (center, summed) = query.on.origin_of(part);
+        let radius = f64::from(sphere.radius());
+        Some(Self { center, radius, lengths: summed + radius, reach: query.reach })
     }
 
     /// Its box grown by the reach, rounded outwards.

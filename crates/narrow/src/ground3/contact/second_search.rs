@@ -16,7 +16,6 @@
 //! bends are large enough to see; on a plane that was rotated as a whole it may run for capsules and wide bodies.
 
 use super::facet::Facet;
-use super::prism::Prism;
 use super::protrusion::{hidden_by, sine, window};
 use super::rejected_gaps::ClosestPoints;
 use super::{Known, PartTest};
@@ -205,17 +204,13 @@ impl PartTest<'_> {
 
     /// A triangle, if it has a low bend, and a lower bound on its separation.
     fn low(&self, near: &NearTriangle, known: &mut Known) -> Option<(Facet, f64)> {
-        let (ground, standing, reach) = (self.query.on.ground, self.standing, self.query.reach);
         if !near.prominent.bends_low() {
             return None;
         }
-        let facet = Facet::facing(ground, near.number, standing.center)?;
-        let extent = standing.extent(facet.normal, facet.origin());
-        let doubt = self.doubt_over(&facet);
-        let prism =
-            Prism { ground, standing, facet: &facet, extent: &extent, reach, doubt, gate: None, ahead: None };
-        let least = prism.least_of_low(Some(&self.incident_to(facet.normal, known)));
-        Some((facet, least))
+        let plane = self.plane_of(near.number)?;
+        let incident = self.incident_to(plane.facet.normal, known);
+        let least = self.prism_over(&plane).least_of_low(Some(&incident));
+        Some((plane.facet, least))
     }
 
     fn hide(&self, normal: DVec3, bound: f64, known: &mut Known) {

@@ -68,8 +68,8 @@ impl Standing<'_> {
         let points: ArrayVec<Point, 2> = points.into_iter().filter(is_ahead).collect();
         let normal: DVec2 = if self.side == 0 { surface.normal } else { -surface.normal };
         let patch = Patch::new((normal, &points), (&parts.place, self.side), run, &near);
-        let patch = patch.map(Patch::deep_by_its_points);
-        if let Some(patch) = patch.and_then(|patch| patch.no_nearer_than(least)) {
+        let patch = patch.map(|patch| patch.deep_by_its_points().widened());
+        if let Some(patch) = patch.filter(|patch| patch.is_beyond(least)) {
             patches.add(patch, parts.convex.preference());
         }
     }

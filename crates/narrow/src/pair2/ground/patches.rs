@@ -79,11 +79,15 @@ impl Patch {
         self.0.separation < -self.0.error
     }
 
-    /// The same, with an error that covers how far away its points are, if none of them is nearer than this.
-    pub(super) fn no_nearer_than(mut self, least: f32) -> Option<Self> {
-        let manifold = &mut self.0;
-        manifold.error = (manifold.error + f32::EPSILON * manifold.separation).next_up();
-        (manifold.separation > 0.0 && manifold.separation >= least).then_some(self)
+    /// The same, with an error that covers how far away its points are: further than where the kernel's was made.
+    pub(super) fn widened(mut self) -> Self {
+        self.0.error = (self.0.error + f32::EPSILON * self.0.separation.abs()).next_up();
+        self
+    }
+
+    /// Whether all points are in front of the surface, and none is nearer than `least`.
+    pub(super) fn is_beyond(&self, least: f32) -> bool {
+        self.0.separation > 0.0 && self.0.separation >= least
     }
 
     /// Whether its separation is greater than the kernel's, by more than the error.
