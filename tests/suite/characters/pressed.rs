@@ -236,3 +236,61 @@ fn cast_ray_of(mesh: &TriMesh, origin: [f64; 3], direction: Vec3) -> bool {
     let ray = Ray3::new(origin, direction * 2.0).unwrap();
     cast_ray3(&mesh.clone().into(), &Pose3::IDENTITY, &ray, 1.0).is_some()
 }
+
+/// Symptom: a press that came down on a character on a thin floor pushed it out below the floor, since that was the
+/// shortest way out of both.
+#[test]
+fn nobody_is_pressed_through_a_thin_fixed_body() {
+    let (hero, round) =
+        (Shape3::from(Capsule3::from_half_height(0.15, 0.25).unwrap()), Circle::new(0.4).unwrap());
+    let (walk, flat) = (Walk3::new(&hero, Vec3::Y).unwrap(), Shape2::from(round));
+    let flat_walk = Walk2::new(&flat, Vec2::Y).unwrap();
+    // A press of the world's size leaves no way out aside; `depenetrate` may find one on top of it, as it is not fixed.
+    let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0)).unwrap());
+    let plank = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.025, 9.0)).unwrap()).fixed();
+    let flat_press = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.5)).unwrap());
+    let flat_plank = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.025)).unwrap()).fixed();
+    for step in 1..40 {
+        // Its lower side. The centres, at 0.41 m, are not inside it yet.
+        let lower = 0.82 - 0.01 * f64::from(step);
+        let mut world = World3::new();
+        world.insert(plank.clone().at(Pose3::at([0.0, -0.025, 0.0]).unwrap()));
+        world.insert(press.clone().at(Pose3::at([0.0, lower + 0.5, 0.0]).unwrap()));
+        let start = Pose3::at([0.0, 0.41, 0.0]).unwrap();
+        let slide = world.move_and_slide((&hero, &start), Vec3::NEG_Y * 0.01, &walk, &Filter3::new());
+        let freed = world.depenetrate((&hero, &start), &Filter3::new());
+        assert!(
+            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
+            "{lower}: {slide:?} {freed:?}"
+        );
+        assert_eq!(slide.is_free, lower > 0.8, "{lower}: {slide:?}");
+
+        let mut world = World2::new();
+        world.insert(flat_plank.clone().at(Pose2::at([0.0, -0.025]).unwrap()));
+        world.insert(flat_press.clone().at(Pose2::at([0.0, lower + 0.5]).unwrap()));
+        let start = Pose2::at([0.0, 0.41]).unwrap();
+        let slide = world.move_and_slide((&flat, &start), Vec2::NEG_Y * 0.01, &flat_walk, &Filter2::new());
+        let freed = world.depenetrate((&flat, &start), &Filter2::new());
+        assert!(
+            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
+            "{lower}: {slide:?} {freed:?}"
+        );
+        assert_eq!(slide.is_free, lower > 0.8, "{lower}: {slide:?}");
+    }
+}
+
+/// A centre inside a body may go through others: a wall of many fixed blocks can be left.
+#[test]
+fn who_starts_inside_a_wall_of_blocks_gets_out() {
+    let hero = Shape3::from(Sphere::new(0.3).unwrap());
+    let mut world = World3::new();
+    let block = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap()).fixed();
+    for (x, y, z) in (-1..=1).flat_map(|x| (-9..=9).flat_map(move |y| (-9..=9).map(move |z| (x, y, z)))) {
+        world.insert(block.clone().at(Pose3::at([x, y, z].map(f64::from)).unwrap()));
+    }
+    for x in [-1.3, -0.8, 0.6, 0.7, 1.4] {
+        let freed = world.depenetrate((&hero, &Pose3::at([x, 0.1, 0.2]).unwrap()), &Filter3::new());
+        let out = freed.pose.position();
+        assert!(freed.is_free && out.x * x > 0.0 && out.x.abs() > 1.8, "{x}: {freed:?}");
+    }
+}

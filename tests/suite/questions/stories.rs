@@ -1,8 +1,9 @@
 //! Queries step by step: what a game gets, and when.
 
 use asunder::{
-    Aabb3, Collider3, Cuboid, Filter2, Filter3, Pose3, Shape3, Sphere, World2, World3,
-    glam::{DVec3, Vec2, Vec3},
+    Aabb3, Circle, Collider2, Collider3, Cuboid, Filter2, Filter3, HalfPlane, Pose2, Pose3, Shape3, Sphere,
+    TriMesh, World2, World3,
+    glam::{DVec2, DVec3, Vec2, Vec3},
 };
 use core::ops::ControlFlow;
 
@@ -156,4 +157,38 @@ fn nonsense_finds_nothing_and_stops_nobody() {
             assert_eq!(found.len(), usize::from(is_found), "{margin} m around {pose:?}");
         }
     }
+}
+
+#[test]
+fn a_view_is_clear_where_nothing_is_in_between() {
+    let mut world = World3::new();
+    let cube = world.insert(Collider3::new(cube()));
+    let corners = [[2.0, -1.0, -1.0], [2.0, 1.0, -1.0], [2.0, 0.0, 1.0]].map(Vec3::from);
+    // Its front looks to +x.
+    let fence = world.insert(Collider3::new(TriMesh::new(corners, [[0, 1, 2]]).unwrap().one_sided()));
+    let all = Filter3::new();
+    let sees = |from: DVec3, to: DVec3| world.is_clear_between(from, to, &all);
+    let (left, middle, right) = (DVec3::NEG_X, DVec3::X, DVec3::X * 3.0);
+    assert!(!sees(left, middle) && !sees(middle, left), "through the cube");
+    assert!(!sees(DVec3::ZERO, middle) && !sees(middle, DVec3::ZERO), "out of the cube, and into it");
+    assert!(sees(middle, right) && !sees(right, middle), "one-sided ground hides what is behind it");
+    assert!(sees(left, DVec3::NEG_X * 0.75), "up to the point, and no further");
+    assert!(world.is_clear_between(left, middle, &all.without(cube)));
+    assert!(world.is_clear_between(right, left, &all.without_all(&[cube, fence])));
+    assert!(sees(left, left) && !sees(DVec3::ZERO, DVec3::ZERO), "a point alone");
+    assert!(!sees(DVec3::Y * 0.5, DVec3::Y * 0.5), "touching counts");
+    let tiny = DVec3::X * 1e-60;
+    assert!(!sees(DVec3::ZERO, tiny) && sees(DVec3::NEG_X + tiny, left), "nearer than f32 can tell");
+    for nonsense in [DVec3::NAN, DVec3::INFINITY, DVec3::splat(f64::MAX)] {
+        assert!(!sees(nonsense, left) && !sees(left, nonsense) && !sees(nonsense, nonsense), "{nonsense}");
+    }
+    assert!(!sees(DVec3::Y * 2e9, left), "further out than a body may be");
+
+    let mut world = World2::new();
+    world.insert(Collider2::new(Circle::new(0.5).unwrap()).at(Pose2::at([0.0, 3.0]).unwrap()));
+    world.insert(Collider2::new(HalfPlane::new(Vec2::Y).unwrap()));
+    let sees = |from: DVec2, to: DVec2| world.is_clear_between(from, to, &Filter2::new());
+    let [left, right] = [-1.0, 1.0].map(|x| DVec2::new(x, 3.0));
+    assert!(!sees(left, right) && sees(left, DVec2::new(1.0, 1.0)) && !sees(left, DVec2::new(-1.0, -1.0)));
+    assert!(sees(left, left) && !sees(DVec2::Y * 3.0, DVec2::Y * 3.0) && !sees(DVec2::NAN, left));
 }

@@ -3,8 +3,8 @@
 use crate::query::{CastAnswer2, Filter2, RayAnswer2, bodies_along, bodies_along_ray, first_ahead};
 use crate::space::Plane;
 use crate::world::World;
-use asunder_geometry::glam::Vec2;
-use asunder_geometry::{Pose2, Ray2, Shape2};
+use asunder_geometry::glam::{DVec2, Vec2};
+use asunder_geometry::{DirectionError, Pose2, Ray2, RayError, Shape2};
 use core::ops::ControlFlow;
 
 /// # Casts
@@ -54,7 +54,7 @@ impl World<Plane> {
     }
 
     /// Like [`World::cast_ray_all`], but one by one, in no promised order. To find out whether anything is in the way,
-    /// break off at the first answer.
+    /// break off at the first answer, or use [`World::is_clear_between`].
     ///
     /// ```
     /// use asunder::{Circle, Collider2, Filter2, Pose2, Ray2, World2, glam::{DVec2, Vec2}};
@@ -74,6 +74,40 @@ impl World<Plane> {
         visitor: impl FnMut(RayAnswer2) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_along_ray(self, ray, limit, filter).visit(visitor)
+    }
+
+    /// Whether nothing is between two points, in metres: the question for a line of sight. A body that contains one of
+    /// the points counts: leave out those of the two who look at each other. For two equal points, it answers whether
+    /// no body contains them. False where a point is not finite, or `from` more than 1e9 m out on an axis.
+    ///
+    /// Cost: less than [`World::cast_ray`] where something is in between, since any body will do.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2, Filter2, Pose2, World2};
+    /// let mut world = World2::new();
+    /// let body = Collider2::new(Circle::new(0.5)?);
+    /// let both = [0.0, 9.0].map(|x| world.insert(body.clone().at(Pose2::at([x, 0.0]).unwrap_or_default())));
+    /// let [eye, head] = [[0.0, 0.0], [9.0, 0.0]];
+    /// let others = Filter2::new().without_all(&both);
+    /// assert!(world.is_clear_between(eye, head, &others) && !world.is_clear_between(eye, head, &Filter2::new()));
+    /// world.insert(body.at(Pose2::at([5.0, 0.0])?));
+    /// assert!(!world.is_clear_between(eye, head, &others));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_clear_between(
+        &self,
+        from: impl Into<DVec2>,
+        to: impl Into<DVec2>,
+        filter: &Filter2<'_>,
+    ) -> bool {
+        let (from, to) = (from.into(), to.into());
+        match Ray2::between(from, to) {
+            Ok(ray) => self.visit_ray(&ray, 1.0, filter, |_| ControlFlow::Break(())).is_continue(),
+            Err(RayError::Direction(DirectionError::Zero)) => {
+                self.visit_overlapping_point(from, filter, |_| ControlFlow::Break(())).is_continue()
+            }
+            Err(_) => false,
+        }
     }
 
     /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Among

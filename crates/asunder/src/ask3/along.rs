@@ -3,8 +3,8 @@
 use crate::query::{CastAnswer3, Filter3, RayAnswer3, bodies_along, bodies_along_ray, first_ahead};
 use crate::space::Volume;
 use crate::world::World;
-use asunder_geometry::glam::Vec3;
-use asunder_geometry::{Pose3, Ray3, Shape3};
+use asunder_geometry::glam::{DVec3, Vec3};
+use asunder_geometry::{DirectionError, Pose3, Ray3, RayError, Shape3};
 use core::ops::ControlFlow;
 
 /// # Casts
@@ -54,7 +54,7 @@ impl World<Volume> {
     }
 
     /// Like [`World::cast_ray_all`], but one by one, in no promised order. To find out whether anything is in the way,
-    /// break off at the first answer.
+    /// break off at the first answer, or use [`World::is_clear_between`].
     ///
     /// ```
     /// use asunder::{Sphere, Collider3, Filter3, Pose3, Ray3, World3, glam::{DVec3, Vec3}};
@@ -74,6 +74,40 @@ impl World<Volume> {
         visitor: impl FnMut(RayAnswer3) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         bodies_along_ray(self, ray, limit, filter).visit(visitor)
+    }
+
+    /// Whether nothing is between two points, in metres: the question for a line of sight. A body that contains one of
+    /// the points counts: leave out those of the two who look at each other. For two equal points, it answers whether
+    /// no body contains them. False where a point is not finite, or `from` more than 1e9 m out on an axis.
+    ///
+    /// Cost: less than [`World::cast_ray`] where something is in between, since any body will do.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Pose3, Sphere, World3};
+    /// let mut world = World3::new();
+    /// let body = Collider3::new(Sphere::new(0.5)?);
+    /// let both = [0.0, 9.0].map(|x| world.insert(body.clone().at(Pose3::at([x, 0.0, 0.0]).unwrap_or_default())));
+    /// let [eye, head] = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0]];
+    /// let others = Filter3::new().without_all(&both);
+    /// assert!(world.is_clear_between(eye, head, &others) && !world.is_clear_between(eye, head, &Filter3::new()));
+    /// world.insert(body.at(Pose3::at([5.0, 0.0, 0.0])?));
+    /// assert!(!world.is_clear_between(eye, head, &others));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_clear_between(
+        &self,
+        from: impl Into<DVec3>,
+        to: impl Into<DVec3>,
+        filter: &Filter3<'_>,
+    ) -> bool {
+        let (from, to) = (from.into(), to.into());
+        match Ray3::between(from, to) {
+            Ok(ray) => self.visit_ray(&ray, 1.0, filter, |_| ControlFlow::Break(())).is_continue(),
+            Err(RayError::Direction(DirectionError::Zero)) => {
+                self.visit_overlapping_point(from, filter, |_| ControlFlow::Break(())).is_continue()
+            }
+            Err(_) => false,
+        }
     }
 
     /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Among

@@ -74,7 +74,7 @@ impl<S: Walks> Freeing<'_, S> {
     /// ```
     /// The deepest plane comes first, since among tiles of a floor it is the only one that matters: the sides of
     /// neighbouring tiles, which the shape overlaps a little, would push it sideways. No push takes a part's centre
-    /// through ground.
+    /// through ground, or from outside of all bodies into a fixed one.
     pub(super) fn by_pushes(&self) -> Freed<S::Pose, S::Point> {
         self.by_rounds().0
     }
@@ -128,11 +128,11 @@ impl<S: Walks> Freeing<'_, S> {
             let target = if round < ROUNDS / 2 { self.target } else { self.target / 16.0 };
             let way = deepest.away * (target - deepest.gap);
             let alone = S::moved(&pose, way).filter(|moved| !self.overlaps(moved));
-            if let Some(moved) = alone.filter(|_| self.share_before_ground(&pose, way, target) >= 1.0) {
+            if let Some(moved) = alone.filter(|_| self.share_before_solids(&pose, way, target) >= 1.0) {
                 return (self.found(moved, true), least);
             }
             let way = push::<S>(&near, target);
-            match S::moved(&pose, way * self.share_before_ground(&pose, way, target)) {
+            match S::moved(&pose, way * self.share_before_solids(&pose, way, target)) {
                 Some(pushed) => pose = pushed,
                 None => break,
             }
@@ -174,7 +174,7 @@ impl<S: Walks> Freeing<'_, S> {
                 // With the target gap, if there is room.
                 let clear = free.0 + self.target;
                 free = place(clear).map_or(free, |pose| (clear, pose));
-                let is_open = self.share_before_ground(self.start, away * free.0, self.target) >= 1.0;
+                let is_open = self.share_before_solids(self.start, away * free.0, self.target) >= 1.0;
                 return is_open.then_some(free);
             }
             (blocked, way) = (way, way * GROWTH);
@@ -183,27 +183,40 @@ impl<S: Walks> Freeing<'_, S> {
     }
 
     /// Which share of a way is allowed: all of it, unless the centre of one of the shape's convex parts would go
-    /// through ground, from a side that is solid. Beyond it the part would not count as overlapping that ground, and a
-    /// shape pressed against it would count as free there.
+    /// 1. through ground, from a side that is solid. Beyond it the part would not count as overlapping that ground, and
+    ///    a shape pressed against it would count as free there;
+    /// 2. from outside of all bodies into a fixed one. A press would push a character out below a thin floor otherwise.
+    ///    A centre that starts inside a body may go anywhere: it may have to leave a wall made of many blocks.
     ///
-    /// Centres stop `before` metres short of where they would go through. Until 2026-11-27 they went a share of the
+    /// Centres stop `before` metres short of where they would enter. Until 2026-11-27 they went a share of the
     /// remaining way: after sixteen rounds nothing was left between centre and ground, and the next push started behind
     /// it.
-    fn share_before_ground(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
+    fn share_before_solids(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
         let Self { world, shape, filter, .. } = *self;
         let before = before / way.length();
         let mut share = 1.0_f64;
         S::middles((shape, from), |middle| {
             let Some(ray) = S::ray(middle, way) else { return };
-            // Ground just beyond the end of the way counts, too, so that the gap is kept there.
+            let (mut ground, mut fixed, mut is_outside) = (f64::INFINITY, f64::INFINITY, true);
+            // What is just beyond the end of the way counts, too, so that the gap is kept there.
             let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
-                let ground = world.bodies.get(hit.body).filter(|body| S::is_ground(&body.shape));
-                let through = ground.and_then(|body| {
-                    if hit.inside { S::first_through(&ray, 1.0 + before, body) } else { Some(hit.distance) }
-                });
-                share = through.map_or(share, |at| share.min((at - before).max(0.0)));
+                let Some(body) = world.bodies.get(hit.body) else { return ControlFlow::Continue(()) };
+                if S::is_ground(&body.shape) {
+                    let through = if hit.inside {
+                        S::first_through(&ray, 1.0 + before, body)
+                    } else {
+                        Some(hit.distance)
+                    };
+                    ground = through.map_or(ground, |at| at.min(ground));
+                } else if hit.inside {
+                    is_outside = false;
+                } else if body.fixed {
+                    fixed = fixed.min(hit.distance);
+                }
                 ControlFlow::Continue(())
             });
+            let at = if is_outside { ground.min(fixed) } else { ground };
+            share = share.min((at - before).max(0.0));
         });
         share
     }

@@ -60,9 +60,9 @@ impl World<Volume> {
     /// 4. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest
     ///    overlap was shallowest.
     ///
-    /// No path is searched for: a shape in a thin wall may come out on the other side. The exception: no push and no
-    /// straight way takes a convex part's centre through a mesh or a height field, unless from behind where it has one
-    /// side.
+    /// No path is searched for: a shape whose centre is in a thin wall may come out on the other side. But no push and
+    /// no straight way takes a convex part's centre through a mesh or a height field, unless from behind where it has
+    /// one side, nor from outside of all bodies into a fixed one.
     ///
     /// Cost: each round takes a query for boxes, and a manifold for each body met; each straight way takes up to twelve
     /// queries for boxes, and an overlap test for each body met.

@@ -37,8 +37,8 @@ pub(crate) trait Asked: Space {
     /// The box around one part of a posed compound, which lies in that of the whole compound; `None` for other shapes.
     fn part_bounds(shape: &Self::Shape, pose: &Self::Pose, part: u32) -> Option<Self::Aabb>;
 
-    /// Visits the slots of all bodies whose boxes are within reach, up to a limit, each with whether its box is in a
-    /// tree, until the visitor breaks off. Its definitions are not generic, for the reason of [`Space::advance`].
+    /// Visits the slots of all bodies whose boxes are within reach, up to a limit, until the visitor breaks off. Its
+    /// definitions are not generic, for the reason of [`Space::advance`].
     fn visit_slots(
         world: &World<Self>,
         within: (&Reach<Self::Aabb>, f64),

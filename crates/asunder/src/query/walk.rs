@@ -89,23 +89,25 @@ impl<B: Bounds> Reach<B> {
     }
 }
 
-/// A visitor of slots; the flag says whether the body's box is in a tree.
-pub(crate) type Look<'l> = dyn FnMut(u32, bool) -> ControlFlow<()> + 'l;
+/// A visitor of slots.
+pub(crate) type Look<'l> = dyn FnMut(u32) -> ControlFlow<()> + 'l;
 
-/// Visits the slots of all bodies whose boxes are within reach, each with whether its box is in a tree, until the
-/// visitor breaks off. Implements [`Asked::visit_slots`].
+/// Visits the slots of all bodies whose boxes are within reach, until the visitor breaks off. Implements
+/// [`Asked::visit_slots`].
 pub(super) fn visit_slots<S: Space>(
     world: &World<S>,
     (reach, limit): (&Reach<S::Aabb>, f64),
     look: &mut Look,
 ) -> ControlFlow<()> {
     let sight = world.sight();
-    for &slot in sight.recent() {
-        look(slot, false)?;
+    for (slot, bounds) in sight.recent() {
+        if reach.meets(bounds, limit).is_some() {
+            look(slot)?;
+        }
     }
     for branch in sight.trees() {
         reach.visit(branch.tree, limit, |number| match branch.slot(number) {
-            Some(slot) => look(slot, true),
+            Some(slot) => look(slot),
             None => ControlFlow::Continue(()),
         })?;
     }
@@ -130,20 +132,18 @@ pub(crate) struct Question<'q, S: Space, F> {
 }
 
 impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_, S, F> {
-    /// The answer of a body, if it is within the limit, which may have shrunk by now. Where a tree's box was met
-    /// already, the body's own box is tested after the narrow phase, which rejects more bodies.
-    fn answer(&self, slot: u32, limit: f64, is_from_tree: bool) -> Option<A> {
+    /// The answer of a body, if it is within the limit, which may have shrunk by now. A box around the body was met
+    /// already; the box that decides is tested after the narrow phase, which rejects more bodies.
+    fn answer(&self, slot: u32, limit: f64) -> Option<A> {
         let key = *self.world.keys.get(slot as usize)?;
         let body = self.world.bodies.get(key).filter(|body| self.filter.admits(key, body))?;
-        let meets = || self.reach.meets(&(self.bounds_of)(&body.shape, &body.pose), limit);
-        let early = if is_from_tree { None } else { Some(meets()?) };
         if !self.filter.agrees(key, body) {
             return None;
         }
         let mut answer = (self.ask)(key, body).filter(|answer| answer.rank().0 <= limit)?;
         let bound = match answer.part().and_then(|part| S::part_bounds(&body.shape, &body.pose, part)) {
             Some(of_part) => self.bound_of_compound(body, &of_part, (answer.rank().0, limit))?,
-            None => early.or_else(meets)?,
+            None => self.reach.meets(&(self.bounds_of)(&body.shape, &body.pose), limit)?,
         };
         if answer.rank().0 < bound {
             answer.put_at(bound);
@@ -169,8 +169,8 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
     /// Each body may lower the limit, so that trees are walked no further than necessary.
     pub(crate) fn first(&self) -> Option<A> {
         let (mut best, mut limit) = (None::<A>, self.limit);
-        let mut look = |slot: u32, is_from_tree: bool| {
-            let found = self.answer(slot, limit, is_from_tree);
+        let mut look = |slot: u32| {
+            let found = self.answer(slot, limit);
             if let Some(found) =
                 found.filter(|found| best.as_ref().is_none_or(|best| found.rank() < best.rank()))
             {
@@ -181,14 +181,16 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
         };
         let sight = self.world.sight();
         let mut limit = self.limit;
-        for &slot in sight.recent() {
-            limit = look(slot, false);
+        for (slot, bounds) in sight.recent() {
+            if self.reach.meets(bounds, limit).is_some() {
+                limit = look(slot);
+            }
         }
         for branch in sight.trees() {
             let start = limit;
             self.reach.in_order(branch.tree, start, |number| {
                 if let Some(slot) = branch.slot(number) {
-                    limit = look(slot, true);
+                    limit = look(slot);
                 }
                 limit
             });
@@ -198,14 +200,11 @@ impl<S: Asked, A: Ranked, F: Fn(S::Key, &Collider<S>) -> Option<A>> Question<'_,
 
     /// Visits all answers, in no promised order, until the visitor breaks off.
     pub(crate) fn visit(&self, mut visitor: impl FnMut(A) -> ControlFlow<()>) -> ControlFlow<()> {
-        S::visit_slots(self.world, (&self.reach, self.limit), &mut |slot, is_from_tree| match self.answer(
-            slot,
-            self.limit,
-            is_from_tree,
-        ) {
+        let mut look = |slot| match self.answer(slot, self.limit) {
             Some(answer) => visitor(answer),
             None => ControlFlow::Continue(()),
-        })
+        };
+        S::visit_slots(self.world, (&self.reach, self.limit), &mut look)
     }
 
     /// Replaces `into` by all answers, by their rank.
