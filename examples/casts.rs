@@ -2,7 +2,6 @@
 
 use asunder::glam::{DVec3, Vec3};
 use asunder::{Capsule3, Collider3, Cuboid, Filter3, HalfSpace, Pose3, Ray3, Sphere, World3};
-use std::ops::ControlFlow;
 
 const SHOOTER: u64 = 1;
 
@@ -25,10 +24,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let place = DVec3::new(20.0, 0.9, z);
         world.set_pose(target, Pose3::at(place)?)?;
 
-        // Is it seen? Any body in between is enough to know that it is not, so the visit breaks off at the first.
-        let line = Ray3::between(eye, place)?;
-        let between = others.without(target);
-        let sees = world.visit_ray(&line, 1.0, &between, |_| ControlFlow::Break(())).is_continue();
+        // Is it seen? The target's own body must not hide it.
+        let sees = world.is_clear_between(eye, place, &others.without(target));
         println!("target at z = {z}: {}", if sees { "in sight" } else { "hidden" });
 
         // Where does the shot end? Distances are in lengths of the ray's direction: here, half a metre each.
