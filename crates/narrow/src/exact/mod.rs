@@ -23,10 +23,12 @@
 //! 3. All coordinates are relative to A: one rotation in place of two, and none where both bodies are turned alike.
 //! 4. Only the vertices that f64 cannot tell from the furthest are compared exactly.
 //! 5. A corner's weight follows from products of corners (the Gram matrix), each computed once.
+//! 6. Boxes turned by right angles need no integers: the signs of six sums decide ([`aligned`]).
 //!
 //! Coordinates of P bits give signs of at most 4 P bits; radii, of 8 P. Cost: linear in the vertices, in f64, plus a
 //! few hundred products of integers of a few words.
 
+mod aligned;
 mod frame2;
 mod frame3;
 mod int;
@@ -42,6 +44,9 @@ pub(crate) type Corner = [usize; 2];
 
 /// Whether two shapes in space share a point; touching counts. `start` is where f64 stopped, and may be empty.
 pub(crate) fn overlaps3(sites: [&Site3; 2], start: &[Corner]) -> bool {
+    if let Some(overlap) = aligned::overlaps3(sites) {
+        return overlap;
+    }
     let cores = sites.map(|site| site.shape.core());
     frame3::question(sites, [&cores[0], &cores[1]]).answer(start)
 }
@@ -54,6 +59,9 @@ pub(crate) fn are_opposed3(sites: [&Site3; 2]) -> bool {
 
 /// As [`overlaps3`], in the plane.
 pub(crate) fn overlaps2(sites: [&Site2; 2], start: &[Corner]) -> bool {
+    if let Some(overlap) = aligned::overlaps2(sites) {
+        return overlap;
+    }
     let cores = sites.map(|site| site.shape.core());
     frame2::question(sites, [&cores[0], &cores[1]]).answer(start)
 }
