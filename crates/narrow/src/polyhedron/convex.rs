@@ -40,7 +40,7 @@ use super::sat::{Axes, last_of};
 use super::slender::{self, Nearest, Slender};
 use super::solid::Solid;
 use crate::answer::{Tier, Verdict};
-use crate::exact::Site3;
+use crate::exact::{self, Site3};
 use crate::feature::{Feature, FeatureId, Hint};
 use crate::precision::{IN_SPACE, Precision, length_at_most};
 use asunder_geometry::glam::DVec3;
@@ -195,7 +195,10 @@ impl<'a> Convex<'a> {
             return match cuboids.sides(&self.precision) {
                 Sides::Apart => Verdict { overlapping: false, tier: Tier::Bound },
                 Sides::Overlapping => Verdict { overlapping: true, tier: Tier::Bound },
-                Sides::Unclear => self.with_solids(|a, b| self.unclear_verdict(a, b)),
+                Sides::Unclear => match exact::boxes_overlap3([&self.sites[0], &self.sites[1]]) {
+                    Some(overlapping) => Verdict { overlapping, tier: Tier::Exact },
+                    None => self.with_solids(|a, b| self.unclear_verdict(a, b)),
+                },
             };
         }
         if let Some(ball) = self.ball() {
