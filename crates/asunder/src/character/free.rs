@@ -2,7 +2,7 @@
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
-use crate::query::{Filter, bodies_along_ray, visit_bodies_in};
+use crate::query::{Filter, Met, bodies_along_ray, bodies_over, visit_bodies_in};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -186,7 +186,8 @@ impl<S: Walks> Freeing<'_, S> {
     /// 1. through ground, from a side that is solid. Beyond it the part would not count as overlapping that ground, and
     ///    a shape pressed against it would count as free there;
     /// 2. from outside of all bodies into a fixed one. A press would push a character out below a thin floor otherwise.
-    ///    A centre that starts inside a body may go anywhere: it may have to leave a wall made of many blocks.
+    ///    A centre that starts inside a body may go anywhere: it may have to leave a wall made of many blocks. One that
+    ///    was outside before the first push may not, even if a push has taken it into a press since.
     ///
     /// Centres stop `before` metres short of where they would enter. Until 2026-11-27 they went a share of the
     /// remaining way: after sixteen rounds nothing was left between centre and ground, and the next push started behind
@@ -215,10 +216,22 @@ impl<S: Walks> Freeing<'_, S> {
                 }
                 ControlFlow::Continue(())
             });
-            let at = if is_outside { ground.min(fixed) } else { ground };
+            let began_at = middle - (S::position(from) - S::position(self.start));
+            let counts = fixed < f64::INFINITY && (is_outside || self.is_outside(began_at));
+            let at = if counts { ground.min(fixed) } else { ground };
             share = share.min((at - before).max(0.0));
         });
         share
+    }
+
+    /// Whether a point is outside of all bodies but ground.
+    fn is_outside(&self, point: S::Point) -> bool {
+        let Some((shape, pose)) = S::point(point) else { return true };
+        let found = bodies_over(self.world, (&shape, &pose), self.filter).visit(|Met(key)| {
+            let is_solid = self.world.bodies.get(key).is_some_and(|body| !S::is_ground(&body.shape));
+            if is_solid { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        found.is_continue()
     }
 }
 

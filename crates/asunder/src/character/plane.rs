@@ -75,7 +75,7 @@ impl World<Plane> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape2, &Pose2), filter: &Filter2<'_>) -> Freed2 {
-        let ((shape, start), filter) = (at, &filter.solid());
+        let ((shape, start), filter) = (at, &filter.solid().with_touched());
         Freeing { world: self, shape, start, target: least_skin::<Plane>(shape, start), filter }.all_around()
     }
 

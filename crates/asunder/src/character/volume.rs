@@ -78,7 +78,7 @@ impl World<Volume> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn depenetrate(&self, at: (&Shape3, &Pose3), filter: &Filter3<'_>) -> Freed3 {
-        let ((shape, start), filter) = (at, &filter.solid());
+        let ((shape, start), filter) = (at, &filter.solid().with_touched());
         Freeing { world: self, shape, start, target: least_skin::<Volume>(shape, start), filter }.all_around()
     }
 
