@@ -78,7 +78,8 @@ impl World<Volume> {
 
     /// Whether nothing is between two points, in metres: the question for a line of sight. A body that contains one of
     /// the points counts: leave out those of the two who look at each other. For two equal points, it answers whether
-    /// no body contains them. False where a point is not finite, or `from` more than 1e9 m out on an axis.
+    /// no body contains them. False where a point is not finite, or `from` more than 1e9 m out on an axis. The direction
+    /// is rounded to f32, as by [`Ray3::between`]: the view ends up to 1e-7 of its length beside `to`.
     ///
     /// Cost: less than [`World::cast_ray`] where something is in between, since any body will do.
     ///
@@ -104,7 +105,9 @@ impl World<Volume> {
         match Ray3::between(from, to) {
             Ok(ray) => self.visit_ray(&ray, 1.0, filter, |_| ControlFlow::Break(())).is_continue(),
             Err(RayError::Direction(DirectionError::Zero)) => {
-                self.visit_overlapping_point(from, filter, |_| ControlFlow::Break(())).is_continue()
+                // Bodies that contain both points are touched at the start.
+                !filter.admits_start(true)
+                    || self.visit_overlapping_point(from, filter, |_| ControlFlow::Break(())).is_continue()
             }
             Err(_) => false,
         }
