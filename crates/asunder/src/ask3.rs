@@ -164,8 +164,8 @@ impl World<Volume> {
     }
 
     /// The manifolds of a posed shape with the bodies of the world, as a body there would have them. For placing
-    /// something, or for moving a body that is in no world; for contacts between bodies of the world, read
-    /// [`World::contacts`].
+    /// something, for moving a body that is in no world, and for one that has been moved since the last update (leave
+    /// it out by the filter); the contacts of that update are in [`World::contacts`].
     ///
     /// - There is one manifold for each pair of convex parts, on ground one for each normal, at most `margin` metres
     ///   apart; a NaN counts as a margin of 0.
