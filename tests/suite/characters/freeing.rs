@@ -2,7 +2,7 @@
 
 use super::stage::{Hero, capsule, crate_of_a_person, cuboid, floor, is_free, put};
 use asunder::glam::{DVec3, Quat, Vec3};
-use asunder::{Collider3, Filter3, Pair3, Pose3, Separation3, Shape3, Sphere, TriMesh, World3};
+use asunder::{Collider3, Filter3, Pair3, Pose3, Separation3, Shape3, Sphere, TriMesh, Walk3, World3};
 use asunder_scenes::random::Random;
 
 #[test]
@@ -192,4 +192,38 @@ fn ground_in_ground_is_not_free() {
     assert!(!world.depenetrate((&mesh, &at), &Filter3::new()).is_free);
     let above = Pose3::at([0.0, 0.1, 0.0]).unwrap();
     assert!(world.depenetrate((&mesh, &above), &Filter3::new()).is_free);
+}
+
+/// Symptom: a lift that pressed a person against a ceiling rose through the person, up to its middle, and at 2 m/s past
+/// that in the next frame: the person fell out below. Cause: pushes went from one side of the press to the other, so
+/// the best place that was tried was the one where the person stood already, until it was as deep as can be.
+#[test]
+fn who_is_pressed_is_as_deep_in_one_side_as_in_the_other() {
+    let shape = capsule();
+    let corners = [[-2.0, 0.0, -2.0], [-2.0, 0.0, 2.0], [2.0, 0.0, 2.0], [2.0, 0.0, -2.0]].map(Vec3::from);
+    let sheet = Shape3::from(TriMesh::new(corners, [[0, 1, 2], [0, 2, 3]]).unwrap());
+    for (deck, top) in [(sheet, 0.0), (cuboid(Vec3::new(2.0, 0.05, 2.0)), 0.05)] {
+        for a_frame in [0.004, 0.0167, 0.05, 0.2] {
+            let mut world = World3::new();
+            put(&mut world, [9.0, 0.5, 9.0], [0.0, 3.5, 0.0], 0.0);
+            let deck = world.insert(Collider3::new(deck.clone()));
+            let walk = Walk3::new(&shape, Vec3::Y).unwrap();
+            // The room between lift and ceiling shrinks from 2 m to half of what the person needs, and stays so.
+            let (mut room, mut pose) = (2.0_f64, Pose3::at([0.1, 1.95, 0.2]).unwrap());
+            for _ in 0..600 {
+                room = (room - a_frame).max(0.9);
+                let height = 3.0 - room;
+                world.set_pose(deck, Pose3::at([0.0, height - top, 0.0]).unwrap()).unwrap();
+                let others = Filter3::new();
+                let slide = world.move_and_slide((&shape, &pose), Vec3::Y * -0.003, &walk, &others);
+                pose = slide.pose;
+                let up = pose.position().y;
+                let sunk = [height - (up - 0.9), up + 0.9 - 3.0];
+                assert!(slide.is_free == (room > 1.8) || room > 1.77, "{room}");
+                if !slide.is_free {
+                    assert!((sunk[0] - sunk[1]).abs() < 0.05, "{sunk:?} in {room} at {a_frame} a frame");
+                }
+            }
+        }
+    }
 }

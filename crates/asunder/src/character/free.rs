@@ -27,6 +27,9 @@ const GROWTH: f64 = 1.25;
 /// How often the interval between the last two places is halved.
 const HALVINGS: usize = 4;
 
+/// How many places between the two sides of a press are tried, each in the middle of what is left.
+const EASINGS: usize = 6;
+
 /// Most manifolds in one round: the nearest, or deepest.
 const MOST_NEAR: usize = 16;
 
@@ -110,9 +113,7 @@ impl<S: Walks> Freeing<'_, S> {
         let (mut best, mut least) = ((f64::NEG_INFINITY, pose), 0.0);
         for round in 0..=ROUNDS {
             let near = self.near(&pose);
-            let planes = near.iter().map(|near| &near.plane);
-            let deepest = planes.reduce(|best, next| if next.gap < best.gap { next } else { best });
-            let Some(deepest) = deepest.filter(|deepest| deepest.gap <= 0.0) else {
+            let Some(deepest) = deepest::<S>(&near).filter(|deepest| deepest.gap <= 0.0) else {
                 return (self.found(pose, !self.overlaps(&pose)), least);
             };
             if deepest.gap > best.0 {
@@ -137,7 +138,35 @@ impl<S: Walks> Freeing<'_, S> {
                 None => break,
             }
         }
-        (self.found(best.1, false), least)
+        let eased = self.eased(best);
+        (self.found(eased, !self.overlaps(&eased)), least)
+    }
+
+    /// Of a wedged shape: from the best place so far on, out of the plane in which it is deepest there, up to where it
+    /// is as deep in what that leads it into. Pushes alone go from one side of a press to the other and back, so that
+    /// the best of their places is all in one: a lift rose through a character that a ceiling held, up to its centre,
+    /// and past it in the next frame.
+    fn eased(&self, (gap, from): (f64, S::Pose)) -> S::Pose {
+        let near = self.near(&from);
+        let Some(out) = deepest::<S>(&near) else { return from };
+        let (mut best, mut less, mut more) = ((gap, from), 0.0, -gap);
+        for _ in 0..EASINGS {
+            let middle = 0.5 * (less + more);
+            let way = out.away * middle;
+            let way = way * self.share_before_solids(&from, way, self.target);
+            let Some(pose) = S::moved(&from, way) else { break };
+            let near = self.near(&pose);
+            let Some(next) = deepest::<S>(&near) else { return pose };
+            if next.gap > best.0 {
+                best = (next.gap, pose);
+            }
+            if next.away.dot(out.away) > 0.0 {
+                less = middle;
+            } else {
+                more = middle;
+            }
+        }
+        best.1
     }
 
     /// The shortest straight way out that is found, between `least` and `most` metres long.
@@ -233,6 +262,12 @@ impl<S: Walks> Freeing<'_, S> {
         });
         found.is_continue()
     }
+}
+
+/// The plane in which the shape is deepest, or to which it is nearest.
+fn deepest<S: Walks>(near: &[Near<S>]) -> Option<&Gap<S::Point>> {
+    let planes = near.iter().map(|near| &near.plane);
+    planes.reduce(|best, next| if next.gap < best.gap { next } else { best })
 }
 
 /// Nearly the shortest way to a gap of `target` metres to all planes; a compromise where there is none.

@@ -58,8 +58,9 @@ impl World<Volume> {
     ///    ways are tried: along the normals of those manifolds and in 26 directions all around, up to four times as
     ///    far.
     /// 4. If it still overlaps something, it is wedged: `is_free` is false, and `pose` is the one tried whose deepest
-    ///    overlap was shallowest. In it, a centre may be a hair from ground or from a fixed body: a motion from there
-    ///    may lead through, so do not move the shape until it is free.
+    ///    overlap was shallowest; between the two sides of a press, it is about as deep in both. A centre may be a hair
+    ///    from ground or from a fixed body then, and a motion from there may lead through: do not move the shape until
+    ///    it is free.
     ///
     /// No path is searched for: a shape whose centre is in a thin wall may come out on the other side. But no push and
     /// no straight way takes a convex part's centre through a mesh or a height field, unless from behind where it has
