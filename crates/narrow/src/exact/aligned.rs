@@ -93,9 +93,10 @@ fn right_angles3(pose: &Pose3) -> Option<Turn<3>> {
         return None;
     }
     let units = components.map(|value| i128::from(value > 0.0) - i128::from(value < 0.0));
-    let squared = units.iter().filter(|unit| **unit != 0).count() as i128;
-    let is_right = matches!(squared, 1 | 2 | 4);
-    is_right.then(|| matrix(&units).map(|row| row.map(|entry| (entry / squared) as f64)))
+    let count = units.iter().filter(|unit| **unit != 0).count();
+    let is_right = matches!(count, 1 | 2 | 4);
+    // The entries are their number, its negative, and zero.
+    is_right.then(|| matrix(&units).map(|row| row.map(|entry| f64::from(entry.signum() as i8))))
 }
 
 fn right_angles2(pose: &Pose2) -> Option<Turn<2>> {
