@@ -31,7 +31,7 @@ pub use answer::{
 pub use filter::{Filter, Filter2, Filter3};
 pub(crate) use index::Boxes;
 pub(crate) use questions::{
-    bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead, manifolds,
+    bodies_along, bodies_along_ray, bodies_near, bodies_over, boxes_over, first_ahead, is_clear, manifolds,
     parts_along, visit_bodies_in, visit_manifolds,
 };
 pub(crate) use space::{Asked, Enter, Meet};

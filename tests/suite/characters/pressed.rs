@@ -2,8 +2,8 @@
 
 use asunder::{
     Capsule2, Capsule3, Chain, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3,
-    HeightField, Pose2, Pose3, Ray3, Rect, Rotation2, Shape2, Shape3, Sphere, TriMesh, Walk2, Walk3, World2,
-    World3, cast_ray3,
+    Freed2, Freed3, HeightField, Pose2, Pose3, Ray3, Rect, Rotation2, Shape2, Shape3, Slide2, Slide3, Sphere,
+    TriMesh, Walk2, Walk3, World2, World3, cast_ray3,
 };
 use glam::{Vec2, Vec3};
 
@@ -237,44 +237,68 @@ fn cast_ray_of(mesh: &TriMesh, origin: [f64; 3], direction: Vec3) -> bool {
     cast_ray3(&mesh.clone().into(), &Pose3::IDENTITY, &ray, 1.0).is_some()
 }
 
+/// Where a shape at a height comes to, by a fall and by being freed, between a thin fixed floor, whose top is at 0, and a
+/// press, whose lower side is at `lower`: the bodies in either order. The press is as wide as the world, so that there
+/// is no way out aside; `depenetrate` may find one on top of it, as it is not fixed.
+fn pressed3(
+    shape: &Shape3,
+    height: f64,
+    fall: f32,
+    (lower, is_press_first): (f64, bool),
+) -> (Slide3, Freed3) {
+    let slab = |half: f32, at: f64| {
+        let slab = Cuboid::from_half_extents(Vec3::new(9.0, half, 9.0)).unwrap();
+        Collider3::new(slab).at(Pose3::at([0.0, at, 0.0]).unwrap())
+    };
+    let mut slabs = [slab(0.025, -0.025).fixed(), slab(0.5, lower + 0.5)];
+    if is_press_first {
+        slabs.reverse();
+    }
+    let mut world = World3::new();
+    world.insert_many(slabs);
+    let (start, walk) = (Pose3::at([0.0, height, 0.0]).unwrap(), Walk3::new(shape, Vec3::Y).unwrap());
+    let slide = world.move_and_slide((shape, &start), Vec3::NEG_Y * fall, &walk, &Filter3::new());
+    (slide, world.depenetrate((shape, &start), &Filter3::new()))
+}
+
+/// As [`pressed3`], in the plane.
+fn pressed2(
+    shape: &Shape2,
+    height: f64,
+    fall: f32,
+    (lower, is_press_first): (f64, bool),
+) -> (Slide2, Freed2) {
+    let slab = |half: f32, at: f64| {
+        let slab = Rect::from_half_extents(Vec2::new(9.0, half)).unwrap();
+        Collider2::new(slab).at(Pose2::at([0.0, at]).unwrap())
+    };
+    let mut slabs = [slab(0.025, -0.025).fixed(), slab(0.5, lower + 0.5)];
+    if is_press_first {
+        slabs.reverse();
+    }
+    let mut world = World2::new();
+    world.insert_many(slabs);
+    let (start, walk) = (Pose2::at([0.0, height]).unwrap(), Walk2::new(shape, Vec2::Y).unwrap());
+    let slide = world.move_and_slide((shape, &start), Vec2::NEG_Y * fall, &walk, &Filter2::new());
+    (slide, world.depenetrate((shape, &start), &Filter2::new()))
+}
+
 /// Symptom: a press that came down on a character on a thin floor pushed it out below the floor, since that was the
 /// shortest way out of both.
 #[test]
 fn nobody_is_pressed_through_a_thin_fixed_body() {
-    let (hero, round) =
-        (Shape3::from(Capsule3::from_half_height(0.15, 0.25).unwrap()), Circle::new(0.4).unwrap());
-    let (walk, flat) = (Walk3::new(&hero, Vec3::Y).unwrap(), Shape2::from(round));
-    let flat_walk = Walk2::new(&flat, Vec2::Y).unwrap();
-    // A press of the world's size leaves no way out aside; `depenetrate` may find one on top of it, as it is not fixed.
-    let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0)).unwrap());
-    let plank = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.025, 9.0)).unwrap()).fixed();
-    let flat_press = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.5)).unwrap());
-    let flat_plank = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.025)).unwrap()).fixed();
-    for step in 1..40 {
-        // Its lower side. The centres, at 0.41 m, are not inside it yet.
+    let hero = Shape3::from(Capsule3::from_half_height(0.15, 0.25).unwrap());
+    let flat = Shape2::from(Circle::new(0.4).unwrap());
+    for (step, is_press_first) in (1..40).flat_map(|step| [(step, false), (step, true)]) {
+        // The centres, at 0.41 m, are not inside the press yet.
         let lower = 0.82 - 0.01 * f64::from(step);
-        let mut world = World3::new();
-        world.insert(plank.clone().at(Pose3::at([0.0, -0.025, 0.0]).unwrap()));
-        world.insert(press.clone().at(Pose3::at([0.0, lower + 0.5, 0.0]).unwrap()));
-        let start = Pose3::at([0.0, 0.41, 0.0]).unwrap();
-        let slide = world.move_and_slide((&hero, &start), Vec3::NEG_Y * 0.01, &walk, &Filter3::new());
-        let freed = world.depenetrate((&hero, &start), &Filter3::new());
-        assert!(
-            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
-            "{lower}: {slide:?} {freed:?}"
-        );
+        let (slide, freed) = pressed3(&hero, 0.41, 0.01, (lower, is_press_first));
+        let heights = [slide.pose.position().y, freed.pose.position().y];
+        assert!(heights.iter().all(|y| *y > 0.0), "{lower}: {slide:?} {freed:?}");
         assert_eq!(slide.is_free, lower > 0.8, "{lower}: {slide:?}");
-
-        let mut world = World2::new();
-        world.insert(flat_plank.clone().at(Pose2::at([0.0, -0.025]).unwrap()));
-        world.insert(flat_press.clone().at(Pose2::at([0.0, lower + 0.5]).unwrap()));
-        let start = Pose2::at([0.0, 0.41]).unwrap();
-        let slide = world.move_and_slide((&flat, &start), Vec2::NEG_Y * 0.01, &flat_walk, &Filter2::new());
-        let freed = world.depenetrate((&flat, &start), &Filter2::new());
-        assert!(
-            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
-            "{lower}: {slide:?} {freed:?}"
-        );
+        let (slide, freed) = pressed2(&flat, 0.41, 0.01, (lower, is_press_first));
+        let heights = [slide.pose.position().y, freed.pose.position().y];
+        assert!(heights.iter().all(|y| *y > 0.0), "{lower}: {slide:?} {freed:?}");
         assert_eq!(slide.is_free, lower > 0.8, "{lower}: {slide:?}");
     }
 }
@@ -304,44 +328,16 @@ fn who_starts_inside_a_wall_of_blocks_gets_out() {
 /// each push counted as a start of its own.
 #[test]
 fn nobody_is_pressed_through_a_thin_fixed_body_by_way_of_the_press() {
-    let (hero, round) = (Shape3::from(Sphere::new(0.4).unwrap()), Shape2::from(Circle::new(0.4).unwrap()));
-    let (walk, flat_walk) = (Walk3::new(&hero, Vec3::Y).unwrap(), Walk2::new(&round, Vec2::Y).unwrap());
-    let press = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.5, 9.0)).unwrap());
-    let plank = Collider3::new(Cuboid::from_half_extents(Vec3::new(9.0, 0.025, 9.0)).unwrap()).fixed();
-    let flat_press = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.5)).unwrap());
-    let flat_plank = Collider2::new(Rect::from_half_extents(Vec2::new(9.0, 0.025)).unwrap()).fixed();
-    for (step, is_first) in (0..64).flat_map(|step| [(step, false), (step, true)]) {
+    let (hero, flat) = (Shape3::from(Sphere::new(0.4).unwrap()), Shape2::from(Circle::new(0.4).unwrap()));
+    for (step, is_press_first) in (0..64).flat_map(|step| [(step, false), (step, true)]) {
         // How far the centre is above the floor, and below the press.
         let [above, below] = [step % 8, step / 8].map(|part| 0.02 + 0.04 * f64::from(part));
-        let lower = above + below;
-        let bodies = [
-            plank.clone().at(Pose3::at([0.0, -0.025, 0.0]).unwrap()),
-            press.clone().at(Pose3::at([0.0, lower + 0.5, 0.0]).unwrap()),
-        ];
-        let mut world = World3::new();
-        world.insert(bodies[usize::from(is_first)].clone());
-        world.insert(bodies[usize::from(!is_first)].clone());
-        let start = Pose3::at([0.0, above, 0.0]).unwrap();
-        let slide = world.move_and_slide((&hero, &start), Vec3::ZERO, &walk, &Filter3::new());
-        let freed = world.depenetrate((&hero, &start), &Filter3::new());
-        assert!(
-            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
-            "{above}, {below}: {slide:?} {freed:?}"
-        );
-
-        let bodies = [
-            flat_plank.clone().at(Pose2::at([0.0, -0.025]).unwrap()),
-            flat_press.clone().at(Pose2::at([0.0, lower + 0.5]).unwrap()),
-        ];
-        let mut world = World2::new();
-        world.insert(bodies[usize::from(is_first)].clone());
-        world.insert(bodies[usize::from(!is_first)].clone());
-        let start = Pose2::at([0.0, above]).unwrap();
-        let slide = world.move_and_slide((&round, &start), Vec2::ZERO, &flat_walk, &Filter2::new());
-        let freed = world.depenetrate((&round, &start), &Filter2::new());
-        assert!(
-            slide.pose.position().y > 0.0 && freed.pose.position().y > 0.0,
-            "{above}, {below}: {slide:?} {freed:?}"
-        );
+        let press = (above + below, is_press_first);
+        let (slide, freed) = pressed3(&hero, above, 0.0, press);
+        let heights = [slide.pose.position().y, freed.pose.position().y];
+        assert!(heights.iter().all(|y| *y > 0.0), "{above}, {below}: {slide:?} {freed:?}");
+        let (slide, freed) = pressed2(&flat, above, 0.0, press);
+        let heights = [slide.pose.position().y, freed.pose.position().y];
+        assert!(heights.iter().all(|y| *y > 0.0), "{above}, {below}: {slide:?} {freed:?}");
     }
 }

@@ -2,49 +2,81 @@
 
 use asunder::glam::{DVec3, Quat, Vec3};
 use asunder::{
-    Collider3, Cuboid, Filter3, HalfSpace, Motion3, Pair3, Pose3, Shape3, Sphere, TriMesh, World3,
+    BodyKey3, Collider3, Cuboid, Filter3, HalfSpace, Motion3, Pair3, Pose3, Shape3, Sphere, TriMesh, World3,
 };
 
-/// What is left of a velocity without the parts that lead into what the shape touches where it is now, or nearly does.
-fn let_off(world: &World3, at: (&Shape3, &Pose3), others: &Filter3<'_>, mut speed: DVec3) -> DVec3 {
-    let mut near = Vec::new();
-    world.manifolds(at, 0.005, others, &mut near);
-    for (_, manifold) in &near {
-        let normal = manifold.normal.as_dvec3();
-        speed -= normal * speed.dot(normal).max(0.0);
-    }
-    speed
+/// A bullet that rolls frame by frame as the guide describes (game loops).
+struct Roller {
+    key: BodyKey3,
+    shape: Shape3,
+    speed: DVec3,
+    /// What of the speed into a wall is taken: 1 to roll on along it, 2 to come back as fast.
+    bounce: f64,
+    /// How far it is moved back from what it hit.
+    skin: f64,
+    /// Whether it is moved back even where it is not free, unlike in the guide.
+    is_blind: bool,
 }
 
-/// How far a bullet rolls at 5 m/s over a floor, frame by frame as the guide describes (game loops), if after each
-/// impact it is placed at the distance `skin` from what it hit.
+impl Roller {
+    fn new(world: &mut World3, at: Pose3, speed: DVec3, bounce: f64) -> Self {
+        let shape = Shape3::from(Sphere::new(0.25).unwrap());
+        let key = world.insert(Collider3::new(shape.clone()).bullet().at(at));
+        Self { key, shape, speed, bounce, skin: 1e-4, is_blind: false }
+    }
+
+    fn pose(&self, world: &World3) -> Pose3 {
+        *world.pose(self.key).unwrap()
+    }
+
+    fn is_free(&self, world: &World3, at: &Pose3) -> bool {
+        world.is_free((&self.shape, at), &Filter3::new().without(self.key))
+    }
+
+    /// A sixtieth of a second; returns whether it hit something.
+    fn roll(&mut self, world: &mut World3, pull: DVec3) -> bool {
+        let (here, time, mut near) = (self.pose(world), 1.0 / 60.0, Vec::new());
+        self.speed += pull * time;
+        world.manifolds((&self.shape, &here), 0.005, &Filter3::new().without(self.key), &mut near);
+        for (_, manifold) in &near {
+            self.lose(manifold.normal.as_dvec3(), 1.0);
+        }
+        let motion = Motion3::shift(self.speed * time).unwrap();
+        world.set_motion(self.key, motion).unwrap();
+        world.update();
+        let stop = world.impacts_of(self.key).next().copied();
+        let mut there = motion.pose_at(&here, stop.map_or(1.0, |hit| hit.impact.fraction));
+        if let Some(hit) = stop {
+            let normal = hit.impact.normal.as_dvec3();
+            self.lose(normal, self.bounce);
+            let back = there.shifted(normal * -self.skin).unwrap();
+            if self.is_blind || self.is_free(world, &back) {
+                there = back;
+            }
+        }
+        world.set_pose(self.key, there).unwrap();
+        stop.is_some()
+    }
+
+    /// Takes a multiple of the part of the speed that leads along a normal.
+    fn lose(&mut self, normal: DVec3, times: f64) {
+        self.speed -= normal * times * self.speed.dot(normal).max(0.0);
+    }
+}
+
+/// How far a bullet rolls at 5 m/s over a floor, if after each impact it is placed at the distance `skin` from what it
+/// hit.
 fn rolled(floor: Shape3, top: f64, turn: Quat, (frames, skin): (u32, f64)) -> f64 {
     let base = Pose3::new([3.0, 4.0, 5.0], turn).unwrap();
     let mut world = World3::new();
     world.insert(Collider3::new(floor).fixed().at(base));
     let start = base.compose(&Pose3::at([-450.0, top + 0.3, 0.0]).unwrap()).unwrap();
-    let shape = Shape3::from(Sphere::new(0.25).unwrap());
-    let ball = world.insert(Collider3::new(shape.clone()).bullet().at(start));
-    let others = Filter3::new().without(ball);
-    // Gravity points straight into the floor, so that the bullet rolls on evenly.
-    let (mut speed, pull, time) = (base.turn(DVec3::X * 5.0), base.turn(DVec3::Y * -9.81), 1.0 / 60.0);
+    let mut ball = Roller { skin, ..Roller::new(&mut world, start, base.turn(DVec3::X * 5.0), 1.0) };
     for _ in 0..frames {
-        speed += pull * time;
-        let here = *world.pose(ball).unwrap();
-        speed = let_off(&world, (&shape, &here), &others, speed);
-        let motion = Motion3::shift(speed * time).unwrap();
-        world.set_motion(ball, motion).unwrap();
-        world.update();
-        let stop = world.impacts_of(ball).next().copied();
-        let mut there = motion.pose_at(&here, stop.map_or(1.0, |hit| hit.impact.fraction));
-        if let Some(hit) = stop {
-            let normal = hit.impact.normal.as_dvec3();
-            speed -= normal * speed.dot(normal).max(0.0);
-            there = there.shifted(normal * -skin).unwrap();
-        }
-        world.set_pose(ball, there).unwrap();
+        // Gravity points straight into the floor, so that the bullet rolls on evenly.
+        ball.roll(&mut world, base.turn(DVec3::Y * -9.81));
     }
-    (world.pose(ball).unwrap().position() - start.position()).length()
+    (ball.pose(&world).position() - start.position()).length()
 }
 
 /// Symptom: a ball that rolled as in the guide got stuck for good: on half of all tilted half-spaces at once, on
@@ -96,40 +128,21 @@ fn a_bullet_that_presses_by_a_rounding_never_gets_in() {
     }
 }
 
-/// Whether a bullet that is thrown into a groove of a mesh ever overlaps it, and how high it lies after ten seconds: by
-/// the guide's loop, in which it is moved back by a skin after each impact, either always or only if it is free there.
-fn grooved(half_width: f32, (speed, bounce): (DVec3, f64), always: bool) -> (bool, f64) {
+/// Whether a bullet that is thrown into a groove of a mesh ever overlaps it, and how high it lies after ten seconds.
+fn grooved(half_width: f32, (speed, bounce): (DVec3, f64), is_blind: bool) -> (bool, f64) {
     let corners = [-half_width, 0.0, half_width]
         .map(|x| [-20.0, 20.0].map(|z| Vec3::new(x, if x == 0.0 { 0.0 } else { 5.0 }, z)));
     let groove = TriMesh::new(corners.concat(), [[0, 1, 2], [2, 1, 3], [2, 3, 4], [4, 3, 5]]).unwrap();
     let mut world = World3::new();
     world.insert(Collider3::new(groove));
-    let shape = Shape3::from(Sphere::new(0.25).unwrap());
-    let ball = Collider3::new(shape.clone()).bullet().at(Pose3::at([0.0, 3.0, 0.0]).unwrap());
-    let ball = world.insert(ball);
-    let others = Filter3::new().without(ball);
-    let (mut speed, time, mut overlapped) = (speed, 1.0 / 60.0, false);
+    let start = Pose3::at([0.0, 3.0, 0.0]).unwrap();
+    let mut ball = Roller { is_blind, ..Roller::new(&mut world, start, speed, bounce) };
+    let mut overlapped = false;
     for _ in 0..600 {
-        speed.y -= 9.81 * time;
-        let here = *world.pose(ball).unwrap();
-        speed = let_off(&world, (&shape, &here), &others, speed);
-        let motion = Motion3::shift(speed * time).unwrap();
-        world.set_motion(ball, motion).unwrap();
-        world.update();
-        let stop = world.impacts_of(ball).next().copied();
-        let mut there = motion.pose_at(&here, stop.map_or(1.0, |hit| hit.impact.fraction));
-        if let Some(hit) = stop {
-            let normal = hit.impact.normal.as_dvec3();
-            speed -= normal * bounce * speed.dot(normal).max(0.0);
-            let back = there.shifted(normal * -1e-4).unwrap();
-            if always || world.is_free((&shape, &back), &others) {
-                there = back;
-            }
-        }
-        world.set_pose(ball, there).unwrap();
-        overlapped |= !world.is_free((&shape, &there), &others);
+        ball.roll(&mut world, DVec3::Y * -9.81);
+        overlapped |= !ball.is_free(&world, &ball.pose(&world));
     }
-    (overlapped, world.pose(ball).unwrap().position().y)
+    (overlapped, ball.pose(&world).position().y)
 }
 
 /// Symptom: balls that rolled as in the guide fell through the bottom of a notch, within a second or two. Cause: the
@@ -158,36 +171,17 @@ fn a_bullet_keeps_its_skin_only_where_it_is_free() {
 #[test]
 fn a_bullet_bounces_between_walls_within_one_frame() {
     let wall = Cuboid::from_half_extents(Vec3::new(0.5, 9.0, 9.0)).unwrap();
-    let shape = Shape3::from(Sphere::new(0.25).unwrap());
-    let time = 1.0 / 60.0;
     for gap in [0.1, 0.2, 0.3, 0.4, 0.7] {
         let mut world = World3::new();
         for side in [-1.0, 1.0] {
             let at = Pose3::at([side * (0.75 + gap / 2.0), 0.0, 0.0]).unwrap();
             world.insert(Collider3::new(wall).fixed().at(at));
         }
-        let ball = world.insert(Collider3::new(shape.clone()).bullet());
-        let others = Filter3::new().without(ball);
-        let (mut speed, mut bounces) = (DVec3::X * 20.0, 0);
-        for _ in 0..60 {
-            let here = *world.pose(ball).unwrap();
-            speed = let_off(&world, (&shape, &here), &others, speed);
-            let motion = Motion3::shift(speed * time).unwrap();
-            world.set_motion(ball, motion).unwrap();
-            world.update();
-            let stop = world.impacts_of(ball).next().copied();
-            let mut there = motion.pose_at(&here, stop.map_or(1.0, |hit| hit.impact.fraction));
-            if let Some(hit) = stop {
-                let normal = hit.impact.normal.as_dvec3();
-                speed -= normal * 2.0 * speed.dot(normal).max(0.0);
-                there = there.shifted(normal * -1e-4).unwrap();
-                bounces += 1;
-            }
-            world.set_pose(ball, there).unwrap();
-        }
+        let mut ball = Roller::new(&mut world, Pose3::IDENTITY, DVec3::X * 20.0, 2.0);
+        let bounces = (0..60).filter(|_| ball.roll(&mut world, DVec3::ZERO)).count() as f64;
         // A second at 20 m/s is sixty ways of a third of a metre; a frame ends with its bounce.
         let frames = (gap * 60.0 / 20.0).ceil();
-        assert!((speed.length() - 20.0).abs() < 1e-3, "{speed} in a gap of {gap}");
-        assert!(f64::from(bounces) >= (60.0 / frames).floor() - 1.0, "{bounces} in a gap of {gap}");
+        assert!((ball.speed.length() - 20.0).abs() < 1e-3, "{} in a gap of {gap}", ball.speed);
+        assert!(bounces >= (60.0 / frames).floor() - 1.0, "{bounces} in a gap of {gap}");
     }
 }

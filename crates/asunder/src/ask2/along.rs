@@ -1,10 +1,10 @@
 //! Casts in the plane: rays and moved shapes.
 
-use crate::query::{CastAnswer2, Filter2, RayAnswer2, bodies_along, bodies_along_ray, first_ahead};
+use crate::query::{CastAnswer2, Filter2, RayAnswer2, bodies_along, bodies_along_ray, first_ahead, is_clear};
 use crate::space::Plane;
 use crate::world::World;
 use asunder_geometry::glam::{DVec2, Vec2};
-use asunder_geometry::{DirectionError, Pose2, Ray2, RayError, Shape2};
+use asunder_geometry::{Pose2, Ray2, Shape2};
 use core::ops::ControlFlow;
 
 /// # Casts
@@ -102,15 +102,7 @@ impl World<Plane> {
         filter: &Filter2<'_>,
     ) -> bool {
         let (from, to) = (from.into(), to.into());
-        match Ray2::between(from, to) {
-            Ok(ray) => self.visit_ray(&ray, 1.0, filter, |_| ControlFlow::Break(())).is_continue(),
-            Err(RayError::Direction(DirectionError::Zero)) => {
-                // Bodies that contain both points are touched at the start.
-                !filter.admits_start(true)
-                    || self.visit_overlapping_point(from, filter, |_| ControlFlow::Break(())).is_continue()
-            }
-            Err(_) => false,
-        }
+        is_clear((self, filter), Ray2::between(from, to), from)
     }
 
     /// The first body that a posed shape meets while it is moved by a displacement, in metres, without turning. Among

@@ -74,6 +74,7 @@ impl<S: Walks> Freeing<'_, S> {
     ///   nothing overlaps: done
     ///   push out of the deepest plane alone; if that frees the shape: done, by the shortest way out of that plane
     ///   push out of all planes at once
+    /// after sixteen rounds: the best place so far, halfway between what presses the shape there   (eased)
     /// ```
     /// The deepest plane comes first, since among tiles of a floor it is the only one that matters: the sides of
     /// neighbouring tiles, which the shape overlaps a little, would push it sideways. No push takes a part's centre

@@ -184,7 +184,7 @@ impl<'a, S: Space> Filter<'a, S> {
 
     /// Whether it admits an answer, by whether it is touched at the start.
     #[inline]
-    pub(crate) fn admits_start(&self, is_touched: bool) -> bool {
+    pub(super) fn admits_start(&self, is_touched: bool) -> bool {
         !(self.is_apart && is_touched)
     }
 

@@ -13,7 +13,7 @@
 //!    scan a list of them, or a tree of all would have to be rebuilt every frame.
 //! 2. A list besides the two trees: a game that moves one body, queries, and moves the next would otherwise rebuild the
 //!    second tree for every query.
-//! 3. The list keeps boxes, so that a query scans it at a few nanoseconds for each.
+//! 3. The list keeps boxes, so that the queries between two changes compute each only once.
 //!
 //! No answer depends on which of them a body is in: see [`walk`](super::walk).
 

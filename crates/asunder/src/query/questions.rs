@@ -7,7 +7,7 @@ use super::walk::{Asks, Question, Reach, with_kept};
 use crate::collider::Collider;
 use crate::space::RunsInto;
 use crate::world::{World, slot_of};
-use asunder_geometry::tolerance;
+use asunder_geometry::{DirectionError, RayError, tolerance};
 use core::cell::Cell;
 use core::ops::ControlFlow;
 
@@ -78,6 +78,25 @@ pub(crate) fn visit_manifolds<S: Asked>(
         });
         flow
     })
+}
+
+/// Whether nothing is on a ray up to its end, or, where the ray has no length, at the point `from`.
+pub(crate) fn is_clear<S: Asked>(
+    (world, filter): (&World<S>, &Filter<'_, S>),
+    ray: Result<S::Ray, RayError>,
+    from: S::Point,
+) -> bool {
+    match ray {
+        Ok(ray) => bodies_along_ray(world, &ray, 1.0, filter).visit(|_| ControlFlow::Break(())).is_continue(),
+        // All that is met is touched at the start.
+        Err(RayError::Direction(DirectionError::Zero)) => {
+            let point = S::point(from).filter(|_| filter.admits_start(true));
+            point.is_none_or(|(shape, pose)| {
+                bodies_over(world, (&shape, &pose), filter).visit(|_| ControlFlow::Break(())).is_continue()
+            })
+        }
+        Err(_) => false,
+    }
 }
 
 /// Replaces `into` by the manifolds of a shape with each body within a margin, by the bodies' slots.

@@ -18,7 +18,7 @@
 //!
 //! What keeps it cheap:
 //! 1. f64 hands over its last corners, so that one to three steps remain instead of a search from scratch.
-//! 2. One common unit, a power of two, makes all lengths integers, as short as the scene allows: bricks on a grid need
+//! 2. One common unit, a power of two, makes all lengths integers, as short as the scene allows: bodies on a grid need
 //!    30 bits, bodies with any rotation some 155.
 //! 3. All coordinates are relative to A: one rotation in place of two, and none where both bodies are turned alike.
 //! 4. Only the vertices that f64 cannot tell from the furthest are compared exactly.
@@ -36,6 +36,7 @@ mod nearest;
 mod question;
 mod rotation;
 
+pub(crate) use aligned::boxes_overlap3;
 pub(crate) use frame2::Site2;
 pub(crate) use frame3::Site3;
 
@@ -51,11 +52,6 @@ pub(crate) fn overlaps3(sites: [&Site3; 2], start: &[Corner]) -> bool {
     frame3::question(sites, [&cores[0], &cores[1]]).answer(start)
 }
 
-/// The same for two cuboids turned by right angles, at next to no cost; `None` for all others.
-pub(crate) fn boxes_overlap3(sites: [&Site3; 2]) -> Option<bool> {
-    aligned::overlaps3(sites)
-}
-
 /// Whether two half-spaces have exactly opposite normals, so that a finite translation separates them.
 pub(crate) fn are_opposed3(sites: [&Site3; 2]) -> bool {
     let cores = sites.map(|site| site.shape.core());
@@ -64,7 +60,7 @@ pub(crate) fn are_opposed3(sites: [&Site3; 2]) -> bool {
 
 /// As [`overlaps3`], in the plane.
 pub(crate) fn overlaps2(sites: [&Site2; 2], start: &[Corner]) -> bool {
-    if let Some(overlapping) = aligned::overlaps2(sites) {
+    if let Some(overlapping) = aligned::boxes_overlap2(sites) {
         return overlapping;
     }
     let cores = sites.map(|site| site.shape.core());
