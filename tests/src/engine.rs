@@ -115,6 +115,8 @@ pub trait Engine: Space + Clone + core::fmt::Debug {
     fn candidates(world: &World<Self>) -> Vec<(Self::Key, Self::Key)>;
     /// `World::candidates_of`.
     fn candidates_of(world: &World<Self>, key: Self::Key) -> Vec<(Self::Key, Self::Key)>;
+    /// `World::events_of`.
+    fn events_of(world: &World<Self>, key: Self::Key) -> Vec<Event<Self::Key>>;
     /// `World::contacts`.
     fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>>;
     /// `World::contacts_of`.

@@ -97,6 +97,8 @@ mod motion;
 mod odometer;
 mod query;
 mod records;
+mod results2;
+mod results3;
 mod slab;
 #[cfg(feature = "serde")]
 mod snapshot;

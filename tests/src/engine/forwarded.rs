@@ -71,6 +71,10 @@ macro_rules! as_the_world_says {
             world.candidates_of(key).collect()
         }
 
+        fn events_of(world: &World<Self>, key: Self::Key) -> Vec<Event<Self::Key>> {
+            world.events_of(key).copied().collect()
+        }
+
         fn contacts(world: &World<Self>) -> Vec<Contact<'_, Self::Key, Self::Manifold>> {
             world.contacts().collect()
         }

@@ -3,7 +3,7 @@
 use super::{NaiveWorld, Record};
 use crate::engine::slot_of;
 use crate::judged::Judged;
-use asunder::{Collider, Contact, World};
+use asunder::{Collider, Contact, Event, World};
 
 /// In metres: how far the oracle's own f64 may be off, some 1e-15 of a few metres over the sine between two edges.
 const ROUNDING: f64 = 1e-10;
@@ -85,6 +85,11 @@ impl<S: Judged> NaiveWorld<S> {
             assert_eq!(S::candidates_of(world, tenant.key), candidates, "in order of the other's slot");
             let contacts: Vec<_> = S::contacts_of(world, tenant.key).iter().map(|c| (c.a, c.b)).collect();
             assert_eq!(contacts, others.iter().map(|(_, record)| record.keys).collect::<Vec<_>>());
+            let all = S::events(world).iter().copied();
+            let events: Vec<_> = all.filter(|event| of_key(&event.bodies())).collect();
+            assert_eq!(S::events_of(world, tenant.key), events);
+            let other = |event: &Event<S::Key>| event.other(tenant.key).map(slot_of);
+            assert!(events.is_sorted_by_key(other), "in order of the other's slot: {events:?}");
             let touching: Vec<u32> = S::touching(world, tenant.key).into_iter().map(slot_of).collect();
             let begun = others.iter().filter(|(_, record)| record.begun).map(|(other, _)| *other);
             assert_eq!(touching, begun.collect::<Vec<_>>());

@@ -39,6 +39,7 @@ impl<S: Space> Sieve<S> {
                 };
                 (filter.solid().without_owner(0).layers(layers), Box::new(allowed))
             }
+            6 => (filter.of_layers(0b10), Box::new(|_, body| body.get_layers().member_of & 0b10 != 0)),
             _ => (filter, Box::new(|_, _| true)),
         };
         Self { filter, allowed }

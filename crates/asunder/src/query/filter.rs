@@ -33,6 +33,7 @@ use core::fmt;
 /// ```
 pub struct Filter<'a, S: Space> {
     layers: Option<Layers>,
+    of_layers: Option<u32>,
     without: Option<S::Key>,
     without_all: &'a [S::Key],
     without_owner: Option<u64>,
@@ -63,6 +64,7 @@ impl<'a, S: Space> Filter<'a, S> {
     pub const fn new() -> Self {
         Self {
             layers: None,
+            of_layers: None,
             without: None,
             without_all: &[],
             without_owner: None,
@@ -72,7 +74,8 @@ impl<'a, S: Space> Filter<'a, S> {
         }
     }
 
-    /// Queries as a body of these layers: finds only bodies whose layers and these agree to meet.
+    /// Queries as a body of these layers: finds only bodies whose layers and these agree to meet. To name the layers that
+    /// are to be found, use [`of_layers`](Self::of_layers).
     ///
     /// ```
     /// use asunder::{Collider3, Filter3, Layers, Ray3, Sphere, World3, glam::Vec3};
@@ -91,6 +94,33 @@ impl<'a, S: Space> Filter<'a, S> {
     #[must_use]
     pub const fn layers(mut self, layers: Layers) -> Self {
         self.layers = Some(layers);
+        self
+    }
+
+    /// Finds only members of one of these layers, one bit each, whatever they collide with: for a line of sight that only
+    /// walls block. Another call replaces the one before.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Filter3, Layers, Sphere, World3, glam::Vec3};
+    /// const WALL: u32 = 1;
+    /// const GLASS: u32 = 2;
+    /// const PEOPLE: u32 = 4;
+    /// let mut world = World3::new();
+    /// let [wall, glass, _somebody] = [WALL, GLASS, PEOPLE].map(|layer| {
+    ///     let layers = Layers { member_of: layer, collides_with: PEOPLE };
+    ///     world.insert(Collider3::new(Sphere::new(1.0).unwrap()).layers(layers))
+    /// });
+    /// let mut found = vec![];
+    /// world.overlapping_point(Vec3::ZERO, &Filter3::new().of_layers(WALL), &mut found);
+    /// assert_eq!(found, [wall]);
+    /// world.overlapping_point(Vec3::ZERO, &Filter3::new().of_layers(WALL | GLASS), &mut found);
+    /// assert_eq!(found, [wall, glass]);
+    /// world.overlapping_point(Vec3::ZERO, &Filter3::new().of_layers(0), &mut found);
+    /// assert_eq!(found, []);
+    /// ```
+    #[must_use]
+    pub const fn of_layers(mut self, member_of: u32) -> Self {
+        self.of_layers = Some(member_of);
         self
     }
 
@@ -180,6 +210,7 @@ impl<'a, S: Space> Filter<'a, S> {
         !(body.disabled || is_left_out || self.is_solid && body.sensor)
             && (self.without_owner.is_none() || self.without_owner != body.owner)
             && self.layers.is_none_or(|layers| layers.meets(body.layers))
+            && self.of_layers.is_none_or(|mask| mask & body.layers.member_of != 0)
     }
 
     /// Whether it admits an answer, by whether it is touched at the start.
@@ -212,6 +243,7 @@ impl<S: Space> fmt::Debug for Filter<'_, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Filter")
             .field("layers", &self.layers)
+            .field("of_layers", &self.of_layers)
             .field("without", &self.without)
             .field("without_all", &self.without_all)
             .field("without_owner", &self.without_owner)
