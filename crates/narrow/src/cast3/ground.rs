@@ -23,9 +23,14 @@ use super::{impact_of, part_end};
 use crate::ground3::{Corners, Facing, OnGround, Touched, Viewpoint};
 use crate::impact3::Impact3;
 use crate::pair3::{Pair3, Part};
+use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::{DVec3, Vec3};
 use core::ops::ControlFlow;
+
+/// Triangles that are kept for later, until one is found on whose inside the part comes down: the more, the more of
+/// them that one rules out; the fewer, the sooner another ends the search.
+const MOST_LATER: usize = 16;
 
 /// The first touch so far.
 struct First {
@@ -104,19 +109,64 @@ impl Search<'_> {
             (low, high) = (middle - arm, middle + arm);
         }
         let half = ((high - low) * (0.5 + f64::from(f32::EPSILON))).as_vec3();
+        let mut later = ArrayVec::<u32, MOST_LATER>::new();
         on.ground.visit_along((low + high) * 0.5, self.way, half, self.until(), |number| {
-            self.look(part, &placed, number)
+            if self.may_meet(&placed, number) && !self.lands(part, &placed, number) {
+                later.push(number);
+                if later.is_full() {
+                    self.look_at_all(part, &placed, &mut later);
+                }
+            }
+            if self.touches { -1.0 } else { self.until() }
         });
+        self.look_at_all(part, &placed, &mut later);
+    }
+
+    fn look_at_all(&mut self, part: &Part, placed: &Corners, later: &mut ArrayVec<u32, MOST_LATER>) {
+        for number in later.drain(..) {
+            if !self.touches {
+                self.look(part, placed, number);
+            }
+        }
+    }
+
+    /// Whether a part may touch a triangle before the first touch so far.
+    fn may_meet(&self, placed: &Corners, number: u32) -> bool {
+        let corners = self.on.ground.corners(number);
+        let is_beside = || self.passage.is_straight() && placed.passes(corners, self.way * self.until());
+        self.on.is_facing(corners, placed.viewpoint) && !is_beside()
+    }
+
+    /// Whether a part comes down on the inside of a triangle: then that is the first touch, unless it does not count or
+    /// another is known that comes before.
+    fn lands(&mut self, part: &Part, placed: &Corners, number: u32) -> bool {
+        let (on, passage) = (self.on, self.passage);
+        if !passage.is_straight() {
+            return false;
+        }
+        let Some(landing) = placed.landing(part, on.ground.corners(number), (self.way, self.until())) else {
+            return false;
+        };
+        let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return false };
+        let of_ground = Part::whole(&triangle, &on.basis);
+        let [up, foot] = [landing.up, landing.foot].map(|v| on.basis.turn(v));
+        let on_ground = foot + on.basis.turn(self.way * landing.fraction) - up * landing.gap;
+        let rounding = if landing.fraction > 0.0 { passage.rounding } else { 0.0 };
+        let met = Met {
+            fraction: landing.fraction,
+            gap: landing.gap + rounding,
+            normal: if on.is_b { -up } else { up },
+            anchors: on.in_order([foot - on.to_body, on_ground]),
+        };
+        self.offer((part, placed), (number, &of_ground), met);
+        true
     }
 
     /// Tests when a part touches a triangle; returns until when other triangles matter.
     fn look(&mut self, part: &Part, placed: &Corners, number: u32) -> f64 {
         let on = self.on;
         let until = self.until();
-        let corners = on.ground.corners(number);
-        let is_beside =
-            || self.passage.is_straight() && placed.passes(&placed.beside(corners), self.way * until);
-        if !on.is_facing(corners, placed.viewpoint) || is_beside() {
+        if !self.may_meet(placed, number) {
             return until;
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };
@@ -138,16 +188,21 @@ impl Search<'_> {
                 met
             }
         };
+        self.offer((part, placed), (number, &of_ground), met);
+        self.until()
+    }
+
+    /// Takes a touch of a part with a triangle, if it counts, and none is known that comes before.
+    fn offer(&mut self, (part, placed): (&Part, &Corners), (number, of_ground): (u32, &Part), met: Met) {
         let rank = (met.fraction, part.index, number);
         if self.first.as_ref().is_none_or(|known| rank < (known.met.fraction, known.part, known.triangle)) {
             let radius = f64::from(part.shape.radius());
             let first =
                 First { met, part: part.index, triangle: number, radius, viewpoint: placed.viewpoint };
-            if !self.is_passed(&first, parts) {
+            if !self.is_passed(&first, self.on.in_order([*part, *of_ground])) {
                 self.first = Some(first);
             }
         }
-        self.until()
     }
 
     /// Whether a touch does not count, such as with one-sided ground that the part comes out of.

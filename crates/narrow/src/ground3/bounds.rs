@@ -13,6 +13,10 @@
 //! Any axis will do: what all corners of both show along it is proved, however the axis was found. And any two points
 //! bound a separation from above.
 
+mod landing;
+#[cfg(test)]
+mod tests;
+
 use super::contact::span_of;
 use super::near::{OnGround, Viewpoint, grown_around};
 use crate::pair3::Part;
@@ -181,13 +185,10 @@ impl Corners {
     /// point nearest to that.
     pub(crate) fn narrowed(&self, beside: &Beside) -> Beside {
         let &Beside { corners, near, of } = beside;
-        let Extent::Cuboid(half) = self.extent else { return *beside };
-        if of.is_some() {
+        if of.is_some() || !matches!(self.extent, Extent::Cuboid(_)) {
             return *beside;
         }
-        let [x, y, z] = self.axes;
-        let held = self.own(near - self.origin).clamp(-half, half);
-        let of = self.origin + (x * held.x + y * held.y + z * held.z);
+        let of = self.nearest_to(near);
         Beside { corners, near: nearest(of, corners), of: Some(of) }
     }
 
@@ -288,8 +289,8 @@ impl Corners {
     }
 
     /// Whether it certainly misses a triangle while it moves by `way`.
-    pub(crate) fn passes(&self, beside: &Beside, way: DVec3) -> bool {
-        let corners = beside.corners;
+    pub(crate) fn passes(&self, corners: [Vec3; 3], way: DVec3) -> bool {
+        let corners = corners.map(|corner| corner.as_dvec3());
         let [a, b, c] = corners;
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
         let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
@@ -300,10 +301,38 @@ impl Corners {
         if above > 0.0 || below > 0.0 {
             return true;
         }
-        let towards = beside.near - self.center;
+        let towards = nearest(self.center, corners) - self.center;
         let aside = towards - way * (towards.dot(way) / way.length_squared());
-        let Some(axis) = aside.try_normalize() else { return false };
-        self.along(axis, corners).gap() > axis.dot(way).abs() + doubt
+        let is_beside = |axis: DVec3| self.along(axis, corners).gap() > axis.dot(way).abs() + doubt;
+        if aside.try_normalize().is_some_and(is_beside) {
+            return true;
+        }
+        // What an axis shows at both ends of a motion, it shows all the way.
+        let held = self.nearest_to(nearest(self.center + way, corners) - way);
+        let towards = nearest(held + way, corners) - (held + way);
+        towards.try_normalize().is_some_and(|axis| {
+            let along = self.along(axis, corners);
+            along.triangle[0] - along.part[1] > axis.dot(way).max(0.0) + doubt
+        })
+    }
+
+    /// The point of the part's core nearest to another, up to rounding, where that is a cuboid or a segment; else its
+    /// centre.
+    fn nearest_to(&self, point: DVec3) -> DVec3 {
+        match &self.extent {
+            Extent::Cuboid(half) => {
+                let [x, y, z] = self.axes;
+                let held = self.own(point - self.origin).clamp(-*half, *half);
+                self.origin + (x * held.x + y * held.y + z * held.z)
+            }
+            Extent::Points(points) => match points[..] {
+                [from, to] => {
+                    let along = to - from;
+                    from + along * (along.dot(point - from) / along.length_squared()).clamp(0.0, 1.0)
+                }
+                _ => self.center,
+            },
+        }
     }
 
     /// The intervals of both along a unit axis; the part's is widened by the rounding error.
@@ -374,80 +403,4 @@ fn nearest(point: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     }
     let whole = of_a + of_b + of_c;
     a + (u * of_b + v * of_c) / whole
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Pair3;
-    use crate::answer::Separation3;
-    use crate::numbers::Numbers;
-    use asunder_geometry::glam::Quat;
-    use asunder_geometry::{Capsule3, Cuboid, Hull, Pose3, TriMesh, Triangle3};
-
-    fn body(numbers: &mut Numbers, size: f64, round: usize) -> Shape3 {
-        let half = ((numbers.vector().abs() + 0.1) * size).as_vec3();
-        let radius = if round.is_multiple_of(3) { 0.2 * size } else { 0.0 } as f32;
-        let cuboid = Cuboid::from_half_extents(half).unwrap();
-        let mut hull = |count: usize| {
-            let points: Vec<Vec3> = (0..count).map(|_| (numbers.vector() * size).as_vec3()).collect();
-            Shape3::from(Hull::from_points(&points).unwrap())
-        };
-        match round % 6 {
-            0..3 => cuboid.rounded(radius).unwrap().into(),
-            3 => Capsule3::from_half_height(half.y, half.x).unwrap().into(),
-            4 => hull(7),
-            _ => hull(20),
-        }
-    }
-
-    fn pose(numbers: &mut Numbers, size: f64) -> Pose3 {
-        let turn = Quat::from_xyzw(0.3, numbers.number() as f32, numbers.number() as f32, -0.4);
-        Pose3::new(numbers.vector() * size, turn.normalize()).unwrap()
-    }
-
-    #[test]
-    fn what_is_proved_of_a_triangle_holds_for_its_separation() {
-        let mut numbers = Numbers::new(77);
-        let (mut apart, mut tight, mut held, mut overlapping) = (0, 0, 0, 0);
-        for round in 0..20_000 {
-            let size = [1e-3, 1.0, 1e3][round % 5 % 3];
-            let body = body(&mut numbers, size, round);
-            let corners = [0, 1, 2].map(|_| (numbers.vector() * size * 2.0).as_vec3());
-            let (at, under) = (pose(&mut numbers, 2.0 * size), pose(&mut numbers, size));
-            let mesh: Shape3 = TriMesh::new(corners.to_vec(), vec![[0, 1, 2]]).unwrap().into();
-            let [a, b, c] = corners;
-            let triangle = Shape3::from(Triangle3::new(a, b, c).unwrap());
-            let Separation3::Measured(truth) =
-                Pair3::new(&body, &at, &triangle, &under).separation(f32::INFINITY)
-            else {
-                panic!("no limit was given");
-            };
-            let (separation, error) = (f64::from(truth.separation), f64::from(truth.error));
-            let pair = Pair3::new(&body, &at, &mesh, &under);
-            let on = OnGround::of(&pair).unwrap();
-            on.for_body_parts(0.0, |part| {
-                let placed = Corners::of(&on, part);
-                let beside = placed.beside(corners);
-                for beside in [beside, placed.narrowed(&beside)] {
-                    let gap = placed.gap(&beside, f64::INFINITY);
-                    assert!(gap <= separation.max(0.0) + error, "round {round}: {gap} of {separation}");
-                    let at_most = placed.at_most(&beside);
-                    assert!(at_most >= separation - error, "round {round}: {at_most} of {separation}");
-                    let is_cuboid = matches!(body, Shape3::Cuboid(_));
-                    tight += usize::from(is_cuboid && separation > 0.0 && at_most - gap < 1e-3 * size);
-                    if placed.holds_some(&beside) {
-                        assert!(separation <= 0.0, "round {round}: {separation}");
-                        held += 1;
-                    }
-                }
-                false
-            });
-            if separation > 0.0 { apart += 1 } else { overlapping += 1 }
-        }
-        assert!(
-            apart > 8000 && overlapping > 3000 && tight > 3000 && held > 2000,
-            "{apart} {overlapping} {tight} {held}"
-        );
-    }
 }
