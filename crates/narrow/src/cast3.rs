@@ -6,6 +6,7 @@
 //! | sphere, sphere | just that: they are their own bounding spheres | `balls` |
 //! | cuboid, cuboid | fifteen axes at once, the latest entry | [`boxes`] |
 //! | half-space, any other | one height | [`onto_plane`] |
+//! | cuboid, any other that comes down on its face | the same | [`onto_plane`] |
 //! | any two cores | one simplex all the way | [`march`] |
 //! | ground | its triangles, each as any two; which normal counts | [`ground`] |
 //! | what has many parts, and turns | those that may meet on the way, in straight legs | [`legs`] |
@@ -362,6 +363,8 @@ fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) 
             boxes::sweep(passage, &parts, [a, b], stretch)
         }
         (Shape3::HalfSpace(_), _) | (_, Shape3::HalfSpace(_)) => onto_plane::sweep(passage, &parts, until),
+        (_, Shape3::Cuboid(cuboid)) => onto_plane::onto_cuboid(passage, &parts, (cuboid, true), until),
+        (Shape3::Cuboid(cuboid), _) => onto_plane::onto_cuboid(passage, &parts, (cuboid, false), until),
         _ => None,
     };
     quick.unwrap_or_else(|| by_steps(passage, parts, stretch, until))

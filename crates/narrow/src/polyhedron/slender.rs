@@ -19,7 +19,7 @@ use asunder_geometry::{Basis3, Shape3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slender {
     /// Both the same for a point.
-    pub(super) ends: [DVec3; 2],
+    pub(crate) ends: [DVec3; 2],
     pub(super) is_point: bool,
     pub(crate) radius: f64,
 }
