@@ -202,9 +202,16 @@ impl Chain {
         self.visit_where(holds, visit).is_break()
     }
 
-    /// The box around the posed chain, grown by `margin` metres and rounded outwards. Cost: about four times the
-    /// logarithm of the number of vertices.
+    /// The box around the posed chain, grown by `margin` metres and rounded outwards. Cost: constant for a chain that
+    /// is not turned, or turned by right angles, as most levels are; else about four times the logarithm of the number
+    /// of vertices.
     pub fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
+        let is_square = pose.rotation().cos() * pose.rotation().sin() == 0.0;
+        if let (Some(whole), true) = (self.data.tree.whole(), is_square) {
+            // Every coordinate of a turned vertex is one of the vertex, up to its sign.
+            let corners = [whole.min, whole.max].map(|corner| corner.as_dvec2());
+            return around2(corners.into_iter(), pose, f64::from(margin));
+        }
         let furthest = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y]
             .map(|axis| self.furthest(pose.turn_back(axis)).unwrap_or(self.data.center.as_dvec2()));
         around2(furthest.into_iter(), pose, f64::from(margin))
@@ -224,7 +231,8 @@ impl Chain {
                     best = Some((along, end));
                 }
             }
-            best.map_or(f64::INFINITY, |(along, _)| -along)
+            // Others that are as far do not matter: of a level floor, that would be all of them.
+            best.map_or(f64::INFINITY, |(along, _)| (-along).next_down())
         });
         best.map(|(_, vertex)| vertex)
     }

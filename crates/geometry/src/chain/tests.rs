@@ -199,11 +199,19 @@ fn vertices_that_repeat_are_left_out_and_counted() {
 #[test]
 fn its_box_is_that_of_its_vertices_however_it_is_turned() {
     let chain = Chain::closed(wild(333)).unwrap();
-    for i in 0..50 {
-        let rotation = crate::Rotation2::from_angle(noise(i) * 6.5).unwrap();
+    let [turned, other] = [Vec2::X, Vec2::Y].map(|way| crate::Rotation2::new(way.x, way.y).unwrap());
+    for i in 0..56 {
+        let rotation = match i {
+            50 | 51 => turned,
+            52 | 53 => turned.inverse() * other,
+            54 => other * other,
+            55 => other * other * other,
+            _ => crate::Rotation2::from_angle(noise(i) * 6.5).unwrap(),
+        };
         let pose = Pose2::new([1e5 * f64::from(noise(i + 50)), -3.0], rotation).unwrap();
         let all = around2(chain.vertices().iter().map(|vertex| vertex.as_dvec2()), &pose, 0.25);
         let found = chain.bounds(&pose, 0.25);
+        assert!(i < 50 || found == all, "to the bit, where it is turned by right angles");
         assert!((found.min - all.min).abs().max((found.max - all.max).abs()).max_element() <= 1e-7 * 1e5);
         let corners = chain.vertices().iter().map(|&vertex| pose.transform(vertex).as_vec2());
         assert!(corners.into_iter().all(|corner| found.contains(corner)));

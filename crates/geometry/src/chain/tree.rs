@@ -51,6 +51,11 @@ impl Tree {
         (node * LEAF) as u32..((node + 1) * LEAF).min(self.segments) as u32
     }
 
+    /// The box around all segments.
+    pub(super) fn whole(&self) -> Option<&Aabb2> {
+        self.bounds(self.levels.len() - 1, 0)
+    }
+
     fn bounds(&self, level: usize, node: usize) -> Option<&Aabb2> {
         self.levels.get(level)?.get(node)
     }
