@@ -363,8 +363,12 @@ fn part_end(passage: &Passage, parts: [Part; 2], stretch: &Stretch, until: f64) 
             boxes::sweep(passage, &parts, [a, b], stretch)
         }
         (Shape3::HalfSpace(_), _) | (_, Shape3::HalfSpace(_)) => onto_plane::sweep(passage, &parts, until),
-        (_, Shape3::Cuboid(cuboid)) => onto_plane::onto_cuboid(passage, &parts, (cuboid, true), until),
-        (Shape3::Cuboid(cuboid), _) => onto_plane::onto_cuboid(passage, &parts, (cuboid, false), until),
+        (_, Shape3::Cuboid(cuboid)) => {
+            onto_plane::onto_cuboid(passage, &parts, (cuboid, true), (stretch.from, until))
+        }
+        (Shape3::Cuboid(cuboid), _) => {
+            onto_plane::onto_cuboid(passage, &parts, (cuboid, false), (stretch.from, until))
+        }
         _ => None,
     };
     quick.unwrap_or_else(|| by_steps(passage, parts, stretch, until))

@@ -2,8 +2,8 @@
 
 use asunder::glam::{DVec2, DVec3, Vec2, Vec3};
 use asunder::{
-    Capsule2, Capsule3, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3, Pair2,
-    Pair3, Pose2, Pose3, Rect, Shape2, Shape3, Sphere, World2, World3,
+    Capsule2, Capsule3, Circle, Collider2, Collider3, Compound2, Compound3, Cuboid, Filter2, Filter3, Hull,
+    Pair2, Pair3, Pose2, Pose3, Rect, Shape2, Shape3, Sphere, World2, World3,
 };
 
 /// How far above the compound the moved shape passes, in metres. A cast may report a hit that near.
@@ -19,7 +19,9 @@ fn a_compound_that_is_grazed_is_met_in_trees_and_lists_alike() {
     let parts = [3.0, -3.0].map(|z| (Pose3::at([0.0, 0.0, z]).unwrap(), Shape3::from(bar)));
     let below = Collider3::new(Compound3::new(parts).unwrap()).at(Pose3::at([0.0, -1.0, 0.0]).unwrap());
     let far = Collider3::new(Sphere::new(1.0).unwrap()).at(Pose3::at([0.0, 1e6, 0.0]).unwrap());
-    let shape = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().rounded(0.5).unwrap());
+    // A hull: a cuboid's own face would show that it passes.
+    let corners = Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap().vertices();
+    let shape = Shape3::from(Hull::from_points(&corners).unwrap().rounded(0.5).unwrap());
     let (way, filter, mut beside) = (Vec3::X * 30.0, Filter3::new(), 0);
     for gap in GAPS {
         let from = Pose3::at([-10.0, 1.0 + gap, 3.0]).unwrap();

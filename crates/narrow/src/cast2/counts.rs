@@ -8,11 +8,13 @@ use crate::impact2::Impact2;
 use crate::lists::with_manifolds2;
 use crate::pair2::Pair2;
 use asunder_geometry::glam::{DVec2, Vec2};
+use core::cell::Cell;
 
 /// Which touches count.
 #[derive(Clone, Copy)]
 pub(super) enum Counts<'c> {
-    All,
+    /// All. The flag is set unless it is certain that the bodies do not touch at the start.
+    All { doubts_start: &'c Cell<bool> },
     /// Touches with parts that are neither touched at the start nor level with those that are.
     Beyond(&'c Touched<'c>),
     /// Touches with parts that are not touched at the start, if the function says so.
@@ -20,6 +22,13 @@ pub(super) enum Counts<'c> {
 }
 
 impl Counts<'_> {
+    /// Notes that two parts may touch at the start.
+    pub(super) fn doubt_start(self) {
+        if let Self::All { doubts_start } = self {
+            doubts_start.set(true);
+        }
+    }
+
     /// Whether a touch of two pieces, at a time of a stretch and along a unit axis from A to B, counts.
     pub(super) fn admits(
         self,
@@ -29,7 +38,7 @@ impl Counts<'_> {
         impact: &Impact2,
     ) -> bool {
         match self {
-            Self::All => true,
+            Self::All { .. } => true,
             Self::Beyond(touched) => !touched.passes_over(pieces, (stretch, at), axis),
             Self::If(pair, counts) => {
                 let is_touched =

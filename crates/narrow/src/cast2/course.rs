@@ -18,6 +18,7 @@ use crate::precision::Precision;
 use asunder_geometry::glam::{DVec2, Vec2};
 use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
+use core::cell::Cell;
 
 /// Rounds after which a cast gives up and reports an impact with the gap that is left. Shapes that graze take some 25
 /// rounds, others 1 to 10.
@@ -60,6 +61,8 @@ pub(super) struct Course<'a> {
     /// Bounds on a vertex' speed along an axis, as its body turns, and on its second derivative.
     pace: f64,
     bend: f64,
+    /// Set by a search that cannot tell whether they touch at time zero.
+    doubts_start: Cell<bool>,
 }
 
 /// Two parts that touch, or count as touching.
@@ -146,19 +149,25 @@ impl<'a> Course<'a> {
         let (gap, rounding) = (CAST_GAP2 * size, precision.projection());
         let (aim, enough) = (slack + 0.5 * gap + 2.0 * rounding, slack + gap + 6.0 * rounding);
         let cores = pieces.map(|piece| piece.shape.core());
-        Self { stretch, pieces, cores, times, radii, precision, slack, aim, enough, pace, bend }
+        let doubts_start = Cell::new(false);
+        Self { stretch, pieces, cores, times, radii, precision, slack, aim, enough, pace, bend, doubts_start }
     }
 
     /// Where they first touch, before the end.
     pub(super) fn first_touch(&self) -> Option<Touching> {
         if self.pieces[0].is_line() && self.pieces[1].is_line() && self.stretch.is_turning() {
+            self.doubts_start.set(true);
             return Some(self.lines_that_turn());
         }
         let mut now = self.times[0];
         let mut axis = self.towards_b(now);
         for round in 1..=MAX_ROUNDS {
             count_step();
-            let Some(look) = self.look(now, axis) else {
+            let look = self.look(now, axis);
+            if now <= 0.0 && look.as_ref().is_none_or(|look| look.least <= self.slack) {
+                self.doubts_start.set(true);
+            }
+            let Some(look) = look else {
                 let touching = self.too_close(now, axis);
                 let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);
                 return (!is_parting).then_some(touching);
@@ -187,6 +196,11 @@ impl<'a> Course<'a> {
             now = next;
         }
         None
+    }
+
+    /// Whether a search has left open if they touch at time zero.
+    pub(super) fn doubts_start(&self) -> bool {
+        self.doubts_start.get()
     }
 
     /// Whether the gap along an axis, which may be off by a share, never shrinks from then on, however fast bodies

@@ -109,7 +109,11 @@ impl First<'_> {
     fn met_first(&self, chain: &Chain, pieces: [&Piece; 2], side: usize) -> Option<(Met, Touching)> {
         let mut course = Course::new(self.stretch, pieces, self.end)?;
         loop {
-            let touching = course.first_touch()?;
+            let touching = course.first_touch();
+            if self.before.is_none() && course.doubts_start() {
+                self.counts.doubt_start();
+            }
+            let touching = touching?;
             let met = surface_met((chain, pieces[side].index), (&course, self.after), &touching, side);
             let is_passed = || match self.before {
                 Some(before) if chain.is_one_sided() => is_passed_still(before, pieces),

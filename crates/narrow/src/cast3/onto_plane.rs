@@ -31,7 +31,7 @@ pub(super) fn sweep(passage: &Passage, parts: &[Part; 2], until: f64) -> Option<
         (Shape3::HalfSpace(half_space), _) => (half_space, false),
         _ => return None,
     };
-    let over = Over::new(passage, parts, is_b);
+    let over = Over::new(passage, parts, is_b, 0.0);
     let (basis, origin) = over.of_plane;
     let fall = over.fall(basis.turn(half_space.unit_normal()), origin);
     let at_least = fall.at_least();
@@ -42,14 +42,14 @@ pub(super) fn sweep(passage: &Passage, parts: &[Part; 2], until: f64) -> Option<
 }
 
 /// How the motion of a part over a cuboid ends, if it misses the cuboid along one of its faces' normals, or comes down
-/// on the inside of a face.
+/// on the inside of a face. Up to `from` they certainly do not touch; the way there costs no digits.
 pub(super) fn onto_cuboid(
     passage: &Passage,
     parts: &[Part; 2],
     (cuboid, is_b): (&Cuboid, bool),
-    until: f64,
+    (from, until): (f64, f64),
 ) -> Option<End> {
-    let over = Over::new(passage, parts, is_b);
+    let over = Over::new(passage, parts, is_b, from);
     let (basis, middle) = over.of_plane;
     let half = cuboid.half_extents().as_dvec3();
     let axes = [basis.x, basis.y, basis.z];
@@ -68,7 +68,7 @@ pub(super) fn onto_cuboid(
         }
     }
     let (fraction, face, fall) = last.filter(|(.., fall)| fall.closing > fall.off)?;
-    let there = fall.lowest + over.way() * fraction - middle;
+    let there = fall.lowest + over.way() * (fraction - from) - middle;
     let doubt = 2.0 * fall.doubt(fraction);
     let is_inside = |i: usize| i == face || axes[i].dot(there).abs() < half[i] - doubt;
     (0..3).all(is_inside).then(|| End::Met(fall.met(until)))
@@ -79,29 +79,36 @@ struct Over<'p> {
     passage: &'p Passage,
     /// Whether the part with the plane is B.
     is_b: bool,
+    /// Where the motion is first looked at, and B's position less A's there.
+    from: f64,
+    between: DVec3,
     of_plane: (Basis3, DVec3),
     shape: &'p Shape3,
     placed: (Basis3, DVec3),
     /// The ends of the part's core, if that is a segment or a point: found once for all planes.
     ends: Option<[DVec3; 2]>,
-    /// All lengths that enter a height, in metres, where the motion starts.
+    /// All lengths that enter a height there, in metres.
     reach: f64,
 }
 
 impl<'p> Over<'p> {
-    fn new(passage: &'p Passage, parts: &[Part<'p>; 2], is_b: bool) -> Self {
+    fn new(passage: &'p Passage, parts: &[Part<'p>; 2], is_b: bool, from: f64) -> Self {
+        let between = passage.between_at(from);
         let [in_a, in_b] = [0, 1].map(|i| parts[i].placed(&passage.bases[i]));
         let shifts = length(in_a.1) + length(in_b.1);
-        let [a, b] = [in_a, (in_b.0, passage.between + in_b.1)];
+        let [a, b] = [in_a, (in_b.0, between + in_b.1)];
         let (of_plane, placed) = if is_b { (b, a) } else { (a, b) };
         let [with_plane, shape] = if is_b { [1, 0] } else { [0, 1] }.map(|i| parts[i].shape);
         let size = |shape: &Shape3| match shape {
             Shape3::HalfSpace(_) => 0.0,
             _ => f64::from(shape.outer_radius()) + length(shape.center().as_dvec3()),
         };
-        let reach = size(with_plane) + size(shape) + shifts + 2.0 * length(passage.between);
+        // The positions and their difference lose a few roundings of the way there, where a projection loses many.
+        let way =
+            if from > 0.0 { (length(passage.between) + from * length(passage.drift)) / 32.0 } else { 0.0 };
+        let reach = size(with_plane) + size(shape) + shifts + 2.0 * length(between) + way;
         let ends = Slender::of(shape, (&placed.0, placed.1)).map(|slender| slender.ends);
-        Self { passage, is_b, of_plane, shape, placed, ends, reach }
+        Self { passage, is_b, from, between, of_plane, shape, placed, ends, reach }
     }
 
     /// How the part moves relative to the one with the plane.
@@ -145,40 +152,41 @@ struct Fall<'o> {
 impl Fall<'_> {
     /// How far off the height may be.
     fn doubt(&self, fraction: f64) -> f64 {
-        let way = fraction * length(self.over.passage.drift);
+        let way = (fraction - self.over.from) * length(self.over.passage.drift);
         IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.over.reach + way)
     }
 
     fn at_least(&self) -> f64 {
-        self.height - self.doubt(0.0)
+        self.height - self.doubt(self.over.from)
     }
 
     /// Whether the part certainly comes no nearer, or not down to the plane.
     fn stays_above(&self, until: f64) -> bool {
         let closing = self.closing + self.off;
-        closing <= 0.0 || self.at_least() > closing * until * (1.0 + 4.0 * f64::EPSILON)
+        closing <= 0.0 || self.at_least() > closing * (until - self.over.from) * (1.0 + 4.0 * f64::EPSILON)
     }
 
     /// A share of the motion before which the part certainly does not touch the plane, and where all of the height but
     /// a rest is gone.
     fn fraction(&self, until: f64) -> f64 {
-        let rest = (IMPACT_REST * f64::from(self.over.shape.outer_radius())).max(4.0 * self.doubt(0.0));
+        let Over { from, shape, .. } = self.over;
+        let rest = (IMPACT_REST * f64::from(shape.outer_radius())).max(4.0 * self.doubt(*from));
         let step = (self.at_least() - rest).max(0.0) / (self.closing + self.off) * (1.0 - 4.0 * f64::EPSILON);
         // Never beyond, whatever the rounding.
-        step.next_down().clamp(0.0, until)
+        (from + step).next_down().clamp(*from, until.max(*from))
     }
 
     fn met(&self, until: f64) -> Met {
-        let (plane, Over { passage, is_b, shape, .. }) = (&self.plane, self.over);
+        let (plane, Over { passage, is_b, from, between, shape, .. }) = (&self.plane, self.over);
         let fraction = self.fraction(until);
-        let left = self.height - self.closing * fraction;
+        let left = self.height - self.closing * (fraction - from);
         let rounding = if fraction > 0.0 { passage.rounding } else { 0.0 };
         let of_shape = self.lowest - plane.normal * f64::from(shape.radius());
         let feet = [of_shape, of_shape - plane.normal * left];
         let [on_a, on_b] = if *is_b { feet } else { [feet[1], feet[0]] };
         // Both as they stand at the fraction, seen from their own positions.
-        let met_by_b = on_b - passage.between;
-        let moved = passage.drift * fraction;
+        let met_by_b = on_b - *between;
+        let moved = passage.drift * (fraction - from);
         let anchors = if *is_b { [on_a, met_by_b + moved] } else { [on_a - moved, met_by_b] };
         Met { fraction, gap: left + self.doubt(fraction) + rounding, normal: plane.axis(), anchors }
     }
