@@ -8,7 +8,7 @@
 //! | half-space, any other | one height | [`onto_plane`] |
 //! | cuboid, any other that comes down on its face | the same | [`onto_plane`] |
 //! | any two cores | one simplex all the way | [`march`] |
-//! | ground | its triangles, each as any two; which normal counts | [`ground`] |
+//! | ground | its triangles: one height, or each as any two; which normal counts | [`ground`] |
 //! | what has many parts, and turns | those that may meet on the way, in straight legs | [`legs`] |
 //! | what is touched already, and has parts | those that are not, and not level with it | [`beyond`] |
 //! | two half-spaces; touching at the start; stalling; all that turns | distances and steps, in turns | [`advance`] |
@@ -77,9 +77,10 @@ impl Pair3<'_> {
     ///   the edge between the two.
     /// - The normal is the triangle's, except where an edge or vertex stands out of the ground around it.
     ///
-    /// Cost: two roots for spheres, fifteen axes for cuboids, some ten support searches of both for others. On ground:
-    /// that for each triangle whose box the moved part's box meets and whose plane it reaches; for ground that turns,
-    /// and for half-spaces, for every triangle.
+    /// Cost: two roots for spheres, fifteen axes for cuboids, a height or three for what comes down on the face of a
+    /// cuboid, some ten support searches of both for others. On ground: a height for each triangle whose box the moved
+    /// part's box meets and whose plane it reaches, and that search for those among them that may be touched before the
+    /// one on whose inside the part comes down; for ground that turns, and for half-spaces, for every triangle.
     ///
     /// ```
     /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};

@@ -4,8 +4,9 @@
 //! for each convex part of the body
 //!   for each triangle whose box the part's box meets on its way, nearest first, until the first touch so far
 //!     one-sided, and the part's centre starts behind:       passed through
-//!     the part starts and ends on one side of its plane:    passed by
-//!     else:                                                 when the two touch, as any two convex shapes
+//!     the part starts and ends on one side of its plane, or another axis separates the two all the way:  passed by
+//!     it comes down on the inside of the triangle:          there, in closed form             (ground3::bounds::landing)
+//!     else, once a few such are found:                      when the two touch, as any two convex shapes
 //!     touched at an inner edge or vertex, along a direction that the part moves away in:
 //!       one-sided, and the part's centre stays in front:    it comes out of the ground, and passes
 //!       else:                                               an impact along the axis that they touch along
