@@ -1,6 +1,7 @@
 //! Two convex parts on their way: the gap between them at a time, and for how long it certainly lasts.
 
 mod again;
+mod landing;
 mod meeting;
 mod wheel;
 
@@ -159,6 +160,10 @@ impl<'a> Course<'a> {
             self.doubts_start.set(true);
             return Some(self.lines_that_turn());
         }
+        self.landing().unwrap_or_else(|| self.by_steps())
+    }
+
+    fn by_steps(&self) -> Option<Touching> {
         let mut now = self.times[0];
         let mut axis = self.towards_b(now);
         for round in 1..=MAX_ROUNDS {
