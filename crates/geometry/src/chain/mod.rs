@@ -219,12 +219,19 @@ impl Chain {
 
     /// The vertex furthest along a direction; `None` for a direction that is not finite.
     pub(crate) fn furthest(&self, direction: DVec2) -> Option<DVec2> {
+        self.furthest_after(direction).0
+    }
+
+    /// The same, and how many segments were looked at.
+    fn furthest_after(&self, direction: DVec2) -> (Option<DVec2>, usize) {
         let mut best: Option<(f64, DVec2)> = None;
+        let mut count = 0;
         let reach = |bounds: &Aabb2| {
             let corner = Vec2::select(direction.cmpge(DVec2::ZERO), bounds.max, bounds.min);
             -direction.dot(corner.as_dvec2())
         };
         self.visit_nearest(f64::INFINITY, reach, |segment| {
+            count += 1;
             for end in self.ends(segment).into_iter().flatten().map(Vec2::as_dvec2) {
                 let along = direction.dot(end);
                 if best.is_none_or(|(known, _)| along > known) {
@@ -234,7 +241,7 @@ impl Chain {
             // Others that are as far do not matter: of a level floor, that would be all of them.
             best.map_or(f64::INFINITY, |(along, _)| (-along).next_down())
         });
-        best.map(|(_, vertex)| vertex)
+        (best.map(|(_, vertex)| vertex), count)
     }
 
     /// Visits the segments whose boxes overlap a box in the chain's own axes, in ascending order, until the visitor

@@ -217,3 +217,19 @@ fn its_box_is_that_of_its_vertices_however_it_is_turned() {
         assert!(corners.into_iter().all(|corner| found.contains(corner)));
     }
 }
+
+/// Symptom: queries that met a level floor took as much longer as it had more vertices. Cause: of segments that reach
+/// equally far, all were looked at for the chain's box.
+#[test]
+fn few_segments_of_a_level_floor_are_looked_at_for_its_box() {
+    let floor = Chain::open((0..100_000).map(|x| Vec2::new(x as f32, 0.0))).unwrap();
+    let steps = Chain::open((0..100_000).map(|x| Vec2::new((x % 300) as f32, (x / 300) as f32))).unwrap();
+    for direction in [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y, DVec2::new(0.6, -0.8)] {
+        for chain in [&floor, &steps] {
+            let (found, count) = chain.furthest_after(direction);
+            let furthest = chain.vertices().iter().map(|vertex| direction.dot(vertex.as_dvec2()));
+            assert_eq!(found.map(|vertex| direction.dot(vertex)), furthest.reduce(f64::max));
+            assert!(count <= 64, "{count} segments along {direction}");
+        }
+    }
+}
