@@ -156,9 +156,12 @@ impl<'a> Course<'a> {
 
     /// Where they first touch, before the end.
     pub(super) fn first_touch(&self) -> Option<Touching> {
-        if self.pieces[0].is_line() && self.pieces[1].is_line() && self.stretch.is_turning() {
+        if self.pieces[0].is_line() && self.pieces[1].is_line() {
+            // Lines that cross do so anywhere, and each shows only where the other's origin is.
             self.doubts_start.set(true);
-            return Some(self.lines_that_turn());
+            if self.stretch.is_turning() {
+                return Some(self.lines_that_turn());
+            }
         }
         self.landing().unwrap_or_else(|| self.by_steps())
     }

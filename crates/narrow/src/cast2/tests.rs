@@ -78,6 +78,34 @@ fn half_planes_meet_what_is_in_their_way() {
     assert!(turning.fraction == 0.0 && turning.error >= 2.0 && !turning.overlapping);
 }
 
+/// Symptom: a cast of a half-plane onto another that it crosses was a miss, or a hit later on. Cause: the search sees
+/// where each other's origin is, and took that for proof that the two are apart at the start.
+#[test]
+fn half_planes_that_cross_touch_at_the_start_however_far_out() {
+    let mut count = 0;
+    for (one, other) in [(Vec2::X, Vec2::Y), (Vec2::Y, Vec2::new(3.0, 4.0)), (Vec2::X, Vec2::new(-1.0, 0.01))]
+    {
+        let [a, b] = [one, other].map(|normal| Shape2::from(HalfPlane::new(normal).unwrap()));
+        for i in 0..25 {
+            let there = at(f64::from(i % 5) - 2.0, f64::from(i / 5) - 2.0);
+            let pair = Pair2::new(&a, &Pose2::IDENTITY, &b, &there);
+            for way in [Vec2::X, Vec2::NEG_X, Vec2::Y, Vec2::NEG_Y] {
+                let motion = Motion2::shift(way.as_dvec2()).unwrap();
+                let hits =
+                    [pair.cast(way), pair.cast_if(way, |_| true), pair.impact(&motion, &Motion2::STILL)];
+                for hit in hits {
+                    assert!(
+                        hit.is_some_and(|hit| hit.overlapping && hit.fraction == 0.0),
+                        "{i}: {other} by {way}"
+                    );
+                    count += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(count, 900, "lines that are not parallel always cross");
+}
+
 #[test]
 fn of_a_compound_the_part_that_touches_first_is_named() {
     let parts = [(at(5.0, 1.0), circle(0.5)), (at(3.0, 0.0), circle(0.5)), (at(3.0, 0.0), circle(0.5))];
