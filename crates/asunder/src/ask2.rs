@@ -25,7 +25,8 @@ use core::ops::ControlFlow;
 /// caller's lists allocate.
 impl World<Plane> {
     /// Bodies whose boxes overlap a box, whatever their shapes: the quick and coarse test for bodies in a region. A
-    /// body's box is the one around its shape at its current pose, rounded outwards, without its margin.
+    /// body's box is the one around its shape at its current pose, rounded outwards to f32, without its margin: far from
+    /// the origin it is larger by metres (guide: units).
     ///
     /// ```
     /// use asunder::{Aabb2, Circle, Collider2, Filter2, World2, glam::Vec2};
