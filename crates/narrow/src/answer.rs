@@ -311,7 +311,8 @@ pub struct ContactPoint2 {
 
 /// One point of a manifold in space.
 ///
-/// Except on ground, one anchor is the other, moved along the normal by the separation, bit for bit. Let `offset` be
+/// Except on ground, and in manifolds that [`Persistent3`](crate::Persistent3) or a world has moved along with their
+/// bodies, one anchor is the other, moved along the normal by the separation, bit for bit. Let `offset` be
 /// from A's position to B's, in f64, and `out` the normal times the separation. Then either `anchor_b` is
 /// `anchor_a - offset + out`, rounded once, at all points of a manifold; or `anchor_a` is `anchor_b + offset - out` at
 /// all of them.
@@ -408,8 +409,11 @@ pub struct Manifold3 {
     /// Unit normal in world axes, from A to B.
     pub normal: Vec3,
     /// Separation of the two parts, in metres. The least separation of the points is within `error` of it, plus 2e-6 of
-    /// the smaller bounding radius, with three exceptions:
+    /// the smaller bounding radius, with four exceptions:
     ///
+    /// - The faces of a hull are flat up to 2e-7 or so of its own size. Beside a far smaller body that is much: the
+    ///   points of a crate on a plate a hundred times as large may lie lower than this by some 8e-6 of the crate, and
+    ///   show a depth where nothing overlaps.
     /// - If there are four points (possibly chosen from more), and on ground made of triangles, all points may lie
     ///   higher than that by up to 2^-15 of the smaller bounding diameter: the price of a choice that is stable from
     ///   frame to frame.

@@ -218,7 +218,7 @@ impl Hull {
     }
 
     /// The AABB of the posed shape, grown by `margin` metres and rounded outwards: too wide by less than a millionth of
-    /// the vertices' distance from the origin. Cost: linear in the vertices, eight at a time.
+    /// the vertices' distance from the hull's own origin. Cost: linear in the vertices, eight at a time.
     pub fn bounds(&self, pose: &Pose3, margin: f32) -> Aabb3 {
         let grow = f64::from(margin) + f64::from(self.radius);
         around_octets(self.vertex_octets(), self.extent(), pose, grow)
