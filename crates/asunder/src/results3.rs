@@ -92,7 +92,7 @@ impl World<Volume> {
     /// world.update();
     /// let found = world.events_of(hero).filter(|event| event.is_began()).filter_map(|event| event.other(hero));
     /// assert!(found.eq(coins.iter().copied()));
-    /// assert_eq!(world.events_of(coins[0]).count(), 1, "the sensors do not meet each other");
+    /// assert_eq!(world.events_of(coins[0]).count(), 2, "sensors meet each other, too");
     /// world.remove(hero);
     /// world.update();
     /// assert!(world.events_of(hero).all(|event| !event.is_began()) && world.events_of(hero).count() == 2);
