@@ -80,8 +80,8 @@ impl World<Volume> {
     /// - For a body that was removed since, these are the ends of its contacts.
     /// - It is empty for a key of which there is nothing to report.
     ///
-    /// Cost: linear in the number of all events, some 1 ns each, since updates build no index for it. For many bodies,
-    /// iterate over [`events`](Self::events) once instead.
+    /// Cost: linear in the number of all events, since updates build no index for it. For many bodies, iterate over
+    /// [`events`](Self::events) once instead.
     ///
     /// ```
     /// use asunder::{Collider3, Sphere, World3};

@@ -2,12 +2,14 @@
 //!
 //! ```text
 //! circles swept along the way do not meet: a miss          else the way is cut down to where they do
-//! overlapping at the start, exactly: an impact at 0
+//! neither turns, and one comes down on the inside of an edge of the other: an impact            (course/landing)
+//! neither turns, and an edge separates the two all the way: a miss
 //! repeat
 //!   find the gap, and the axis that shows it, for the shapes as they now stand       (polygon/distance)
 //!   the axis separates them for the rest of the way: a miss, without any tolerance
 //!   the gap is next to nothing: an impact                                            (tolerance: CAST_GAP2)
 //!   go on for as long as this one axis certainly shows a gap                         (course)
+//! where that leaves open whether they touch at the start, and they do, exactly: an impact at 0
 //! ```
 //! The step is that of van den Bergen, "Ray casting against general convex objects with application to continuous
 //! collision detection" (2004), for shapes that only translate: along a fixed axis the gap closes at a constant speed.
@@ -87,9 +89,10 @@ impl Pair2<'_> {
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     ///
-    /// Cost: a few dozen ns if bounding circles swept along the way miss; else an exact overlap test, and one distance
-    /// per round: one to three rounds for most pairs, some twenty where curves graze. So it grows as
-    /// [`distance`](Self::distance) does: as the logarithm of a polygon's vertices.
+    /// Cost: a few dozen ns if bounding circles swept along the way miss; a height for each edge where one of few edges
+    /// is come down on; else one distance per round: one to three rounds for most pairs, some twenty where curves graze.
+    /// So it grows as [`distance`](Self::distance) does: as the logarithm of a polygon's vertices. An exact overlap test
+    /// for shapes that nearly touch at the start.
     ///
     /// ```
     /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
@@ -245,8 +248,8 @@ impl Pair2<'_> {
         if travel.is_still() {
             return touching_at_start();
         }
-        // Mostly the search shows that they are apart at the start, and they need not be tested there: rectangles and
-        // capsules fall on floors in 0.85 of the time.
+        // Mostly the search shows that they are apart at the start, and they need not be tested there: a capsule that
+        // walks on a rectangle takes 0.84 of the instructions (2026-11-30).
         let doubts_start = Cell::new(false);
         let first = self.first_touch_along(travel, Counts::All { doubts_start: &doubts_start });
         let at_start = if doubts_start.get() { touching_at_start() } else { None };

@@ -43,6 +43,18 @@ pub(crate) fn length_at_most(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
+/// How much of a motion closes a gap, where all of it would close `closing` metres: never more, whatever the rounding.
+#[inline]
+pub(crate) fn closed_after(gap: f64, closing: f64) -> f64 {
+    gap.max(0.0) / closing * (1.0 - 4.0 * f64::EPSILON)
+}
+
+/// Whether a gap certainly outlasts some of a motion, all of which would close `closing` metres.
+#[inline]
+pub(crate) fn outlasts(gap: f64, closing: f64, span: f64) -> bool {
+    closing <= 0.0 || gap > closing * span * (1.0 + 4.0 * f64::EPSILON)
+}
+
 impl Precision {
     /// For two bodies in space whose separation is a closed form, in the world's axes.
     #[inline]

@@ -5,6 +5,7 @@ mod landing;
 mod meeting;
 mod wheel;
 
+use landing::Landing;
 pub(super) use meeting::meeting;
 
 use super::at_start;
@@ -163,7 +164,11 @@ impl<'a> Course<'a> {
                 return Some(self.lines_that_turn());
             }
         }
-        self.landing().unwrap_or_else(|| self.by_steps())
+        match self.landing() {
+            Landing::On(touching) => Some(touching),
+            Landing::Never => None,
+            Landing::Open => self.by_steps(),
+        }
     }
 
     fn by_steps(&self) -> Option<Touching> {

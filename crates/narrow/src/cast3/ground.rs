@@ -111,8 +111,12 @@ impl Search<'_> {
         }
         let half = ((high - low) * (0.5 + f64::from(f32::EPSILON))).as_vec3();
         let mut later = ArrayVec::<u32, MOST_LATER>::new();
-        on.ground.visit_along((low + high) * 0.5, self.way, half, self.until(), |number| {
-            if self.may_meet(&placed, number) && !self.lands(part, &placed, number) {
+        let is_straight = self.passage.is_straight();
+        on.ground.read_along((low + high) * 0.5, self.way, half, self.until(), |number, corners| {
+            if !is_straight {
+                return self.look(part, &placed, number);
+            }
+            if self.may_meet(&placed, corners) && !self.lands((part, &placed), (number, corners)) {
                 later.push(number);
                 if later.is_full() {
                     self.look_at_all(part, &placed, &mut later);
@@ -132,22 +136,16 @@ impl Search<'_> {
     }
 
     /// Whether a part may touch a triangle before the first touch so far.
-    fn may_meet(&self, placed: &Corners, number: u32) -> bool {
-        let corners = self.on.ground.corners(number);
+    fn may_meet(&self, placed: &Corners, corners: [Vec3; 3]) -> bool {
         let is_beside = || self.passage.is_straight() && placed.passes(corners, self.way * self.until());
         self.on.is_facing(corners, placed.viewpoint) && !is_beside()
     }
 
-    /// Whether a part comes down on the inside of a triangle: then that is the first touch, unless it does not count or
-    /// another is known that comes before.
-    fn lands(&mut self, part: &Part, placed: &Corners, number: u32) -> bool {
+    /// Whether a part that does not turn comes down on the inside of a triangle: then that is the first touch, unless it
+    /// does not count or another is known that comes before.
+    fn lands(&mut self, (part, placed): (&Part, &Corners), (number, corners): (u32, [Vec3; 3])) -> bool {
         let (on, passage) = (self.on, self.passage);
-        if !passage.is_straight() {
-            return false;
-        }
-        let Some(landing) = placed.landing(part, on.ground.corners(number), (self.way, self.until())) else {
-            return false;
-        };
+        let Some(landing) = placed.landing(part, corners, (self.way, self.until())) else { return false };
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return false };
         let of_ground = Part::whole(&triangle, &on.basis);
         let [up, foot] = [landing.up, landing.foot].map(|v| on.basis.turn(v));
@@ -167,7 +165,7 @@ impl Search<'_> {
     fn look(&mut self, part: &Part, placed: &Corners, number: u32) -> f64 {
         let on = self.on;
         let until = self.until();
-        if !self.may_meet(placed, number) {
+        if !self.may_meet(placed, on.ground.corners(number)) {
             return until;
         }
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return until };

@@ -28,7 +28,7 @@ use super::passage::{Course, Stretch, length};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::simplex::{Corners, nearest_of_all, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
-use crate::precision::IN_SPACE;
+use crate::precision::{IN_SPACE, closed_after, outlasts};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
@@ -83,14 +83,14 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let mut distance = f64::INFINITY;
     for _ in 0..MAX_STEPS {
         let Shown { corner, gap, closing } = march.shown(axis, done, is_rough);
-        if gap > 0.0 && (closing <= 0.0 || gap > closing * (span - done) * (1.0 + 4.0 * f64::EPSILON)) {
+        if gap > 0.0 && outlasts(gap, closing, span - done) {
             return Some(End::Apart);
         }
         is_parted |= gap > 0.0;
         if is_near && is_parted && gap > -enough {
             return course.reached(stretch, (done, axis, doubt), simplex.points(a, b));
         }
-        let step = if gap > rest { (gap - rest) / closing * (1.0 - 4.0 * f64::EPSILON) } else { 0.0 };
+        let step = if gap > rest { closed_after(gap - rest, closing) } else { 0.0 };
         let is_known = simplex.corners.iter().any(|known| known.0 == corner.0);
         if step > 0.0 {
             (done, kept) = (done + step, Some(axis));

@@ -17,7 +17,7 @@ use super::passage::{Passage, length};
 use crate::pair3::Part;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::slender::Slender;
-use crate::precision::IN_SPACE;
+use crate::precision::{IN_SPACE, closed_after, outlasts};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::IMPACT_REST;
 use asunder_geometry::{Basis3, Cuboid, Shape3};
@@ -162,8 +162,7 @@ impl Fall<'_> {
 
     /// Whether the part certainly comes no nearer, or not down to the plane.
     fn stays_above(&self, until: f64) -> bool {
-        let closing = self.closing + self.off;
-        closing <= 0.0 || self.at_least() > closing * (until - self.over.from) * (1.0 + 4.0 * f64::EPSILON)
+        outlasts(self.at_least(), self.closing + self.off, until - self.over.from)
     }
 
     /// A share of the motion before which the part certainly does not touch the plane, and where all of the height but
@@ -171,7 +170,7 @@ impl Fall<'_> {
     fn fraction(&self, until: f64) -> f64 {
         let Over { from, shape, .. } = self.over;
         let rest = (IMPACT_REST * f64::from(shape.outer_radius())).max(4.0 * self.doubt(*from));
-        let step = (self.at_least() - rest).max(0.0) / (self.closing + self.off) * (1.0 - 4.0 * f64::EPSILON);
+        let step = closed_after(self.at_least() - rest, self.closing + self.off);
         // Never beyond, whatever the rounding.
         (from + step).next_down().clamp(*from, until.max(*from))
     }

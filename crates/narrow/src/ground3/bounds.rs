@@ -5,6 +5,7 @@
 //!             along the vector from the part's centre to the triangle's nearest point: all others
 //! missed      on one side of the triangle's plane from start to end of a motion
 //!             along the same vector, made square to the motion
+//!             at both ends of a motion, along the vector between the nearest points at its end
 //! ```
 //! A cuboid's point nearest to the triangle's point, and the triangle's point nearest to that, come closer with each
 //! step, for a few products: their distance most often is the separation up to rounding, and no kernel is called. With

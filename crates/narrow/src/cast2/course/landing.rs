@@ -16,6 +16,24 @@ use asunder_geometry::glam::DVec2;
 /// The most edges that are tried.
 const FEW: usize = 4;
 
+/// What the edges of both parts show.
+pub(super) enum Landing {
+    /// They touch inside of one.
+    On(Touching),
+    /// They never touch.
+    Never,
+    Open,
+}
+
+/// What one edge shows.
+enum Shown {
+    /// It separates the two for good.
+    Never,
+    /// It separates them until then.
+    Until(Over),
+    Nothing,
+}
+
 /// An edge, and the vertex of the other part that is lowest over it.
 struct Over {
     /// How long until they meet, at the earliest.
@@ -28,10 +46,10 @@ struct Over {
 }
 
 impl Course<'_> {
-    /// How the motion ends where an edge shows it: a touch, or that there is none; `None` where no edge does.
-    pub(super) fn landing(&self) -> Option<Option<Touching>> {
+    /// How the motion ends, where an edge shows it.
+    pub(super) fn landing(&self) -> Landing {
         if self.is_turning() || self.line().is_some() {
-            return None;
+            return Landing::Open;
         }
         let now = self.times[0];
         let outlines = self.outlines(now);
@@ -40,38 +58,32 @@ impl Course<'_> {
             let ([outline, other], count) =
                 ([&outlines[which], &outlines[1 - which]], outlines[which].edge_count());
             for edge in 0..if count > FEW { 0 } else { count } {
-                let Ok(over) = self.above((outline, edge), other, which) else { return Some(None) };
-                if let Some(over) = over
-                    && last.as_ref().is_none_or(|last| over.until > last.until)
-                {
-                    last = Some(over);
+                match self.shown((outline, edge), other, which) {
+                    Shown::Never => return Landing::Never,
+                    Shown::Until(over) if last.as_ref().is_none_or(|last| over.until > last.until) => {
+                        last = Some(over);
+                    }
+                    Shown::Until(_) | Shown::Nothing => {}
                 }
             }
         }
-        let over = last?;
-        self.touching_inside(&over, now).map(Some)
+        last.and_then(|over| self.touching_inside(&over, now)).map_or(Landing::Open, Landing::On)
     }
 
-    /// One edge: an error if the two never touch; `None` if it does not separate them at the start.
-    fn above(
-        &self,
-        (outline, edge): (&Outline, usize),
-        other: &Outline,
-        which: usize,
-    ) -> Result<Option<Over>, ()> {
+    fn shown(&self, (outline, edge): (&Outline, usize), other: &Outline, which: usize) -> Shown {
         let normal = outline.normal(edge);
         let axis = if which == 0 { normal } else { -normal };
         let ends = [outline.point(edge), outline.point(outline.after(edge))];
         let vertex = other.point(other.support(-normal).vertex);
         let gap = normal.dot(vertex - ends[0]) - self.radii - self.precision.projection() - self.slack;
         if gap <= 0.0 {
-            return Ok(None);
+            return Shown::Nothing;
         }
         let closing = self.closing(axis);
         if closing <= 0.0 || gap > closing * (self.times[1] - self.times[0]) {
-            return Err(());
+            return Shown::Never;
         }
-        Ok(Some(Over { until: gap / closing, edge: ends, normal, which, vertex }))
+        Shown::Until(Over { until: gap / closing, edge: ends, normal, which, vertex })
     }
 
     /// The touch of a vertex that is over the inside of an edge once it has come down to it.
@@ -101,7 +113,7 @@ impl Course<'_> {
 mod tests {
     use super::super::super::piece::Piece;
     use super::super::super::stretch::Travel;
-    use super::Course;
+    use super::{Course, Landing};
     use crate::numbers::Numbers;
     use crate::pair2::Pair2;
     use asunder_geometry::glam::Vec2;
@@ -142,7 +154,11 @@ mod tests {
             let pieces = [Piece::whole(&a), Piece::whole(&b)];
             let stretch = &travel.stretches()[0];
             let Some(course) = Course::new(stretch, [&pieces[0], &pieces[1]], 1.0) else { continue };
-            let Some(found) = course.landing() else { continue };
+            let found = match course.landing() {
+                Landing::On(found) => Some(found),
+                Landing::Never => None,
+                Landing::Open => continue,
+            };
             let steps = course.by_steps();
             let story = format_args!("{round}: {a:?} at {at_a:?}, {b:?} at {at_b:?}");
             assert!(!pair.overlaps(), "{story}");
@@ -180,14 +196,12 @@ mod tests {
             let (above, below) = (Pose2::at([0.0, y]).unwrap(), Pose2::IDENTITY);
             let travel = Travel::shift([&above, &below], way.into());
             let pieces = [Piece::whole(&square), Piece::whole(&square)];
-            Course::new(&travel.stretches()[0], [&pieces[0], &pieces[1]], 1.0)?
-                .landing()
-                .map(|end| end.is_some())
+            Course::new(&travel.stretches()[0], [&pieces[0], &pieces[1]], 1.0).unwrap().landing()
         };
-        assert_eq!(landing(1.0, [0.0, -1.0]), None, "they touch at the start");
-        assert_eq!(landing(1.25, [1.0, 0.0]), Some(false), "it slides above");
-        assert_eq!(landing(1.25, [0.25, -1.0]), Some(true), "it falls on it");
-        assert_eq!(landing(1.25, [0.0, -0.2]), Some(false), "not so far");
-        assert_eq!(landing(0.9, [0.0, -1.0]), None, "it is in it");
+        assert!(matches!(landing(1.0, [0.0, -1.0]), Landing::Open), "they touch at the start");
+        assert!(matches!(landing(1.25, [1.0, 0.0]), Landing::Never), "it slides above");
+        assert!(matches!(landing(1.25, [0.25, -1.0]), Landing::On(_)), "it falls on it");
+        assert!(matches!(landing(1.25, [0.0, -0.2]), Landing::Never), "not so far");
+        assert!(matches!(landing(0.9, [0.0, -1.0]), Landing::Open), "it is in it");
     }
 }

@@ -11,6 +11,7 @@
 
 use super::{Corners, Extent};
 use crate::pair3::Part;
+use crate::precision::closed_after;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::IMPACT_REST;
 
@@ -48,9 +49,7 @@ impl Corners {
             return None;
         }
         let rest = (IMPACT_REST * f64::from(part.shape.outer_radius())).max(4.0 * doubt);
-        // Never too far, whatever the rounding.
-        let step = (height - rest).max(0.0) / (closing + off) * (1.0 - 4.0 * f64::EPSILON);
-        let fraction = step.next_down().max(0.0);
+        let fraction = closed_after(height - rest, closing + off).next_down().max(0.0);
         let there = foot + way * fraction;
         let doubt = doubt + off;
         let is_inside = |from: DVec3, to: DVec3| {
