@@ -19,7 +19,7 @@ impl Hull {
     /// [`Hull::dimension`] says which it is. Points that are off a plane by rounding have a volume.
     ///
     /// ```
-    /// use asunder_geometry::{Hull, glam::{DVec3, Vec3}};
+    /// use asunder::{Hull, glam::{DVec3, Vec3}};
     /// let square = [(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.0, 1.0, 1.0)].map(Vec3::from);
     /// let flat = Hull::of_any_dimension(&square)?;
     /// assert_eq!((flat.dimension(), flat.topology().face_count()), (2, 2));
@@ -27,7 +27,7 @@ impl Hull {
     /// assert!(flat.contains(DVec3::new(0.5, 0.5, 1.0)) && !flat.contains(DVec3::new(0.5, 0.5, 1.0 + 1e-15)));
     /// assert_eq!(Hull::of_any_dimension(&square[..2])?.dimension(), 1);
     /// assert_eq!(Hull::of_any_dimension(&square[..1])?.dimension(), 0);
-    /// # Ok::<(), asunder_geometry::HullError>(())
+    /// # Ok::<(), asunder::HullError>(())
     /// ```
     ///
     /// # Errors
@@ -43,12 +43,17 @@ impl Hull {
         }
     }
 
+    /// The flat hull of a coplanar cloud, with the orientation of its first three corners as they are sorted: not that
+    /// of inner points, so that the hull of its corners alone is the same.
     fn flat(cloud: &Cloud) -> Result<Self, HullError> {
         let count = cloud.points.len() as u32;
-        match (2..count).find(|&i| !is_collinear(&cloud.points, [0, 1, i])) {
-            Some(third) => Self::flat_around(cloud, [0, 1, third]),
-            None => Err(HullError::Flat { dimension: 1 }),
-        }
+        let Some(third) = (2..count).find(|&i| !is_collinear(&cloud.points, [0, 1, i])) else {
+            return Err(HullError::Flat { dimension: 1 });
+        };
+        let all: Vec<u32> = (0..count).collect();
+        let mut corners = planar_hull(&cloud.points, &all, [0, 1, third]);
+        corners.sort_unstable();
+        Self::flat_around(cloud, [corners[0], corners[1], corners[2]])
     }
 
     /// The flat hull of a coplanar cloud, with the orientation of a triangle of its points.

@@ -51,6 +51,24 @@ fn a_thousand_round_hulls_and_low_ones_come_back() {
     }
 }
 
+/// Symptom: `scaled` by one turned flat hulls around and renumbered their vertices, since inner points had oriented them.
+#[test]
+fn what_lies_within_a_flat_hull_does_not_orient_it() {
+    let mut with_inner_points = 0;
+    for seed in 0..1000_u64 {
+        let random = &mut super::clouds::Random::new(seed);
+        let points: Vec<Vec3> = (0..4 + random.below(40))
+            .map(|_| random.sphere())
+            .map(|p| Vec3::new((4.0 * p.x).round(), 3.0 * p.y, 3.0 * p.y))
+            .collect();
+        let hull = Hull::of_any_dimension(&points).unwrap();
+        let corners_alone = Hull::of_any_dimension(hull.vertices()).unwrap();
+        assert_eq!(format!("{hull:?}"), format!("{corners_alone:?}"), "seed {seed}");
+        with_inner_points += usize::from(hull.vertices().len() < points.len());
+    }
+    assert!(with_inner_points > 900, "{with_inner_points}");
+}
+
 #[test]
 fn what_is_thinner_than_rounding_comes_back() {
     for seed in 0..5000 {
