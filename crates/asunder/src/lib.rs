@@ -36,10 +36,8 @@
 //! - Two shapes without a world: [`Pair3`].
 //! - The [`guide`] has pages on most of these, with complete examples.
 //!
-//! Everything exists in the plane as well, with a 2 in place of the 3. Some examples on these pages import from
-//! `asunder_geometry` or `asunder_narrow`, the crates on which this one is built: the items that a game needs are
-//! re-exported here under the same names (`asunder::Pose3`). To write a world of your own, see the jobs, batches and
-//! hints in `asunder_narrow`.
+//! Everything exists in the plane as well, with a 2 in place of the 3. To write a world of your own, see the jobs,
+//! batches and hints in `asunder_narrow`, one of the crates on which this one is built.
 //!
 //! # Words
 //! - A **candidate** is a pair of bodies that may meet and whose boxes, margins included, overlap.
@@ -124,7 +122,8 @@ pub use asunder_narrow::{
     Separation3, Tier, Touch, Touch2, Touch3, Verdict, cast_ray2, cast_ray3,
 };
 pub use character::{
-    Freed, Freed2, Freed3, Obstacle, Obstacle2, Obstacle3, Slide, Slide2, Slide3, Walk, Walk2, Walk3,
+    Footing, Footing2, Footing3, Freed, Freed2, Freed3, Obstacle, Obstacle2, Obstacle3, Slide, Slide2,
+    Slide3, Walk, Walk2, Walk3,
 };
 pub use collider::{Collider, Collider2, Collider3, Layers, MarginError, SetMarginError};
 pub use contact::{Contact, Contact2, Contact3};

@@ -12,7 +12,7 @@ mod sealed {
 /// implement it.
 ///
 /// ```
-/// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
+/// use asunder::{Aabb3, Bounds, glam::Vec3};
 /// let bounds = Aabb3::new(Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0));
 /// assert_eq!(bounds.interval(2), (0.0, 3.0));
 /// assert_eq!(bounds.corners(), ([0.0; 3], [1.0, 2.0, 3.0]));
@@ -64,7 +64,7 @@ pub enum BoxList<'a> {
 /// A box with a NaN, or with a minimum above its maximum, is the empty set and overlaps nothing.
 ///
 /// ```
-/// use asunder_geometry::{Aabb2, glam::Vec2};
+/// use asunder::{Aabb2, glam::Vec2};
 /// let left = Aabb2::new(Vec2::ZERO, Vec2::ONE);
 /// let right = Aabb2::new(Vec2::new(1.0, 0.0), Vec2::new(2.0, 1.0));
 /// assert!(left.overlaps(&right), "closed sets: touching counts");
@@ -83,7 +83,7 @@ pub struct Aabb2 {
 /// A box with a NaN, or with a minimum above its maximum, is the empty set and overlaps nothing.
 ///
 /// ```
-/// use asunder_geometry::{Aabb3, glam::Vec3};
+/// use asunder::{Aabb3, glam::Vec3};
 /// let low = Aabb3::new(Vec3::ZERO, Vec3::ONE);
 /// let high = Aabb3::new(Vec3::new(0.0, 0.0, 1.5), Vec3::splat(2.0));
 /// assert!(!low.overlaps(&high), "one axis that parts them is enough");
@@ -107,7 +107,7 @@ impl Aabb2 {
     /// The least box around points, in metres; [`Bounds::NOTHING`] if there are none. NaN coordinates are left out.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, Bounds, glam::Vec2};
+    /// use asunder::{Aabb2, Bounds, glam::Vec2};
     /// let around = Aabb2::from_points([(1.0, 4.0), (-2.0, 0.5)].map(Vec2::from));
     /// assert_eq!(around, Aabb2::new(Vec2::new(-2.0, 0.5), Vec2::new(1.0, 4.0)));
     /// assert_eq!(Aabb2::from_points([]), Aabb2::NOTHING);
@@ -143,7 +143,7 @@ impl Aabb2 {
     /// sides, like that of a half-space. Does not overflow, however far out the corners are.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, glam::Vec2};
+    /// use asunder::{Aabb2, glam::Vec2};
     /// let crate_ = Aabb2::new(Vec2::ONE, Vec2::splat(3.0));
     /// assert_eq!((crate_.center(), crate_.half_extents()), (Vec2::splat(2.0), Vec2::ONE));
     /// ```
@@ -163,7 +163,7 @@ impl Aabb2 {
     /// The intersection of both; `None` if they share no point.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, glam::Vec2};
+    /// use asunder::{Aabb2, glam::Vec2};
     /// let (one, other) = (Aabb2::new(Vec2::ZERO, Vec2::ONE), Aabb2::new(Vec2::splat(0.5), Vec2::splat(2.0)));
     /// assert_eq!(one.intersection(&other), Some(Aabb2::new(Vec2::splat(0.5), Vec2::ONE)));
     /// assert_eq!(one.intersection(&Aabb2::new(Vec2::splat(1.5), Vec2::splat(2.0))), None);
@@ -184,7 +184,7 @@ impl Aabb3 {
     /// The least box around points, in metres; [`Bounds::NOTHING`] if there are none. NaN coordinates are left out.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Bounds, glam::Vec3};
+    /// use asunder::{Aabb3, Bounds, glam::Vec3};
     /// let around = Aabb3::from_points([(1.0, 4.0, 0.0), (-2.0, 0.5, 3.0)].map(Vec3::from));
     /// assert_eq!(around, Aabb3::new(Vec3::new(-2.0, 0.5, 0.0), Vec3::new(1.0, 4.0, 3.0)));
     /// assert_eq!(Aabb3::from_points([]), Aabb3::NOTHING);
@@ -225,7 +225,7 @@ impl Aabb3 {
     /// sides, like that of a half-space. Does not overflow, however far out the corners are.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, glam::Vec3};
+    /// use asunder::{Aabb3, glam::Vec3};
     /// let crate_ = Aabb3::new(Vec3::ONE, Vec3::splat(3.0));
     /// assert_eq!((crate_.center(), crate_.half_extents()), (Vec3::splat(2.0), Vec3::ONE));
     /// ```
@@ -245,7 +245,7 @@ impl Aabb3 {
     /// The intersection of both; `None` if they share no point.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, glam::Vec3};
+    /// use asunder::{Aabb3, glam::Vec3};
     /// let (one, other) = (Aabb3::new(Vec3::ZERO, Vec3::ONE), Aabb3::new(Vec3::splat(0.5), Vec3::splat(2.0)));
     /// assert_eq!(one.intersection(&other), Some(Aabb3::new(Vec3::splat(0.5), Vec3::ONE)));
     /// assert_eq!(one.intersection(&Aabb3::new(Vec3::splat(1.5), Vec3::splat(2.0))), None);

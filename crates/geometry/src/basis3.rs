@@ -21,7 +21,7 @@ pub(crate) fn turn_between([a, b, c, d]: [f64; 4], [x, y, z, w]: [f64; 4]) -> [f
 /// Its products are written out in a fixed order of summation: that of glam's matrix code depends on the processor.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, glam::DVec3};
+/// use asunder::{Pose3, glam::DVec3};
 /// let basis = Pose3::IDENTITY.basis();
 /// assert_eq!(basis.turn(DVec3::X), DVec3::X);
 /// assert_eq!(basis.turn_back(DVec3::Y), DVec3::Y);
@@ -43,7 +43,7 @@ impl Basis3 {
     /// keeps rotations in arrays of its own.
     ///
     /// ```
-    /// use asunder_geometry::Basis3;
+    /// use asunder::Basis3;
     /// let turned = [0.5, -0.25, 1.0, 2.0];
     /// assert_eq!(Basis3::between([0.0, 0.0, 0.0, 1.0], turned), Basis3::of_quaternion(turned));
     /// ```
@@ -76,7 +76,7 @@ impl Basis3 {
     /// matrices, the Frobenius norm of the difference over the root of two. Right to some units of 2^-53.
     ///
     /// ```
-    /// use asunder_geometry::Basis3;
+    /// use asunder::Basis3;
     /// let half = Basis3::of_quaternion([0.0, 1.0, 0.0, 0.0]);
     /// assert_eq!(half.spin_from(&Basis3::UNIT), 2.0);
     /// ```

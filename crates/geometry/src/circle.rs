@@ -15,10 +15,10 @@ use glam::DVec2;
 /// one point. Radius 1e-6 to 1e6 m.
 ///
 /// ```
-/// use asunder_geometry::{Circle, glam::DVec2};
+/// use asunder::{Circle, glam::DVec2};
 /// let ball = Circle::new(0.5)?;
 /// assert!(ball.contains(DVec2::X * 0.5) && !ball.contains(DVec2::ONE * 0.5));
-/// # Ok::<(), asunder_geometry::RadiusError>(())
+/// # Ok::<(), asunder::RadiusError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Circle {

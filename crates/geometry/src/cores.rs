@@ -35,7 +35,7 @@ impl<T: Copy, const N: usize> Held<'_, T, N> {
 /// vertices.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Segment2, Shape2, glam::{DVec2, Vec2}};
+/// use asunder::{Circle, Segment2, Shape2, glam::{DVec2, Vec2}};
 /// let segment = Shape2::from(Segment2::new(Vec2::ZERO, Vec2::X)?);
 /// assert_eq!(segment.core().normals(), [DVec2::NEG_Y, DVec2::Y]);
 /// let point = Shape2::from(Circle::new(1.0)?);
@@ -54,7 +54,7 @@ pub struct Core2<'a> {
 /// edge and a point none; both have one face loop and no normals. A half-space, a compound and ground have no vertices.
 ///
 /// ```
-/// use asunder_geometry::{Capsule3, Shape3, Triangle3, glam::{DVec3, Vec3}};
+/// use asunder::{Capsule3, Shape3, Triangle3, glam::{DVec3, Vec3}};
 /// let capsule = Shape3::from(Capsule3::from_half_height(1.0, 0.5)?);
 /// assert_eq!((capsule.core().vertices(), capsule.core().normals().len()), (&[Vec3::NEG_Y, Vec3::Y][..], 0));
 /// assert_eq!(capsule.core().topology().edges().len(), 1);
@@ -182,7 +182,7 @@ impl<'a> Core3<'a> {
     /// The support height of the vertices along each face's normal, in metres from the shape's origin.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+    /// use asunder::{Cuboid, Shape3, glam::Vec3};
     /// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
     /// let core = block.core();
     /// assert_eq!(core.extent(), 3.0);
@@ -190,7 +190,7 @@ impl<'a> Core3<'a> {
     ///     let reach = core.vertices().iter().map(|corner| corner.as_dvec3().dot(*normal)).fold(f64::MIN, f64::max);
     ///     assert_eq!(reach, height);
     /// }
-    /// # Ok::<(), asunder_geometry::ExtentError>(())
+    /// # Ok::<(), asunder::ExtentError>(())
     /// ```
     #[inline]
     pub fn heights(&self) -> &[f64] {
@@ -241,7 +241,7 @@ impl<'a> Core3<'a> {
     /// inside: minus a distance within which there is a point of the core.
     ///
     /// ```
-    /// use asunder_geometry::{Segment3, Shape3, glam::Vec3};
+    /// use asunder::{Segment3, Shape3, glam::Vec3};
     /// let segment = Shape3::from(Segment3::new(Vec3::ZERO, Vec3::new(0.1, 0.2, 0.3))?);
     /// assert!(segment.core().inner_radius() < 0.0, "its middle was rounded");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -268,11 +268,11 @@ impl<'a> Core3<'a> {
     /// `k` of `i` is set.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+    /// use asunder::{Cuboid, Shape3, glam::Vec3};
     /// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
     /// assert_eq!(block.core().half_extents(), Some(Vec3::new(1.0, 2.0, 3.0)));
     /// assert_eq!(block.core().vertices()[0b101], Vec3::new(1.0, -2.0, 3.0));
-    /// # Ok::<(), asunder_geometry::ExtentError>(())
+    /// # Ok::<(), asunder::ExtentError>(())
     /// ```
     #[inline]
     pub fn half_extents(&self) -> Option<Vec3> {

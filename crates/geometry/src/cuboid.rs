@@ -21,11 +21,11 @@ use std::sync::LazyLock;
 /// thin, and a bounding radius of 1e-6 to 1e6 m.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, glam::Vec3};
+/// use asunder::{Cuboid, Pose3, glam::Vec3};
 /// let cuboid = Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?;
 /// assert_eq!(cuboid.vertices()[0b101], Vec3::new(1.0, -2.0, 3.0));
 /// assert!(cuboid.bounds(&Pose3::IDENTITY, 0.0).contains(Vec3::new(1.0, 2.0, 3.0)));
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
@@ -57,7 +57,7 @@ impl Cuboid {
     /// rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, glam::{DVec3, Vec3}};
+    /// use asunder::{Cuboid, glam::{DVec3, Vec3}};
     /// let rounded = Cuboid::from_half_extents(Vec3::ONE)?.rounded(0.5)?;
     /// assert!(rounded.contains(DVec3::new(1.5, 0.0, 0.0)) && !rounded.contains(DVec3::new(1.4, 1.4, 0.0)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -79,7 +79,7 @@ impl Cuboid {
     /// Half of the size on each axis, in metres, without the rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, glam::Vec3};
+    /// use asunder::{Cuboid, glam::Vec3};
     /// let half = Vec3::new(1.0, 2.0, 3.0);
     /// assert_eq!(Cuboid::from_half_extents(half)?.rounded(0.5)?.half_extents(), half);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

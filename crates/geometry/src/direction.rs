@@ -3,7 +3,7 @@
 /// Why a direction was rejected.
 ///
 /// ```
-/// use asunder_geometry::{DirectionError, HalfSpace, glam::Vec3};
+/// use asunder::{DirectionError, HalfSpace, glam::Vec3};
 /// assert_eq!(HalfSpace::new(Vec3::ZERO).unwrap_err(), DirectionError::Zero);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 /// Why half extents were rejected.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, ExtentError, glam::Vec3};
+/// use asunder::{Cuboid, ExtentError, glam::Vec3};
 /// let refused = Cuboid::from_half_extents(Vec3::new(1.0, 0.0, 1.0));
 /// assert_eq!(refused.unwrap_err(), ExtentError::NotPositive { axis: 1, value: 0.0 });
 /// ```

@@ -25,7 +25,7 @@ use tree::{Line, Near};
 /// share one number.
 ///
 /// ```
-/// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+/// use asunder::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
 /// use core::ops::ControlFlow;
 /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
 /// let shape = Shape3::from(mesh);
@@ -55,7 +55,7 @@ pub enum Ground<'a> {
 /// it count as the triangle's. Conservative: a bit may be set needlessly.
 ///
 /// ```
-/// use asunder_geometry::Prominent;
+/// use asunder::Prominent;
 /// let all = Prominent::ALL;
 /// assert!(all.edge(0, true) && all.corner(2, false) && all.any(true) && all.any_edge(false));
 /// let none = Prominent::NONE.with_edge(1, true);
@@ -245,7 +245,7 @@ impl<'a> Ground<'a> {
     /// met.
     ///
     /// ```
-    /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
+    /// use asunder::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);
     /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
@@ -272,7 +272,7 @@ impl<'a> Ground<'a> {
     /// same cost with fewer cache misses.
     ///
     /// ```
-    /// use asunder_geometry::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
+    /// use asunder::{Ground, Shape3, TriMesh, glam::{DVec3, Vec3}};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);
     /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
@@ -329,7 +329,7 @@ impl<'a> Ground<'a> {
     /// only on the ground and the query.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// use asunder::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);
     /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;
@@ -349,7 +349,7 @@ impl<'a> Ground<'a> {
     /// the same cost with fewer cache misses.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// use asunder::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);
     /// let ground = Ground::of(&shape).ok_or("a mesh is ground")?;

@@ -21,14 +21,14 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// position, in f32 like all: 10 km from there they are off by a millimetre, on its side of a contact only.
 ///
 /// ```
-/// use asunder_geometry::{HalfPlane, Pose2, glam::{DVec2, Vec2}};
+/// use asunder::{HalfPlane, Pose2, glam::{DVec2, Vec2}};
 /// let floor = HalfPlane::new(Vec2::Y * 2.0)?;
 /// assert!(floor.contains(DVec2::X * 1e9) && !floor.contains(DVec2::Y * 1e-300));
 /// assert_eq!(floor.unit_normal(), DVec2::Y);
 /// let bounds = floor.bounds(&Pose2::IDENTITY, 0.5);
 /// assert_eq!((bounds.min.y, bounds.max.x), (f32::NEG_INFINITY, f32::INFINITY));
 /// assert!((bounds.max.y - 0.5).abs() < 1e-6, "it ends where its normal is an axis");
-/// # Ok::<(), asunder_geometry::DirectionError>(())
+/// # Ok::<(), asunder::DirectionError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfPlane {
@@ -97,14 +97,14 @@ impl HalfPlane {
 /// position, in f32 like all: 10 km from there they are off by a millimetre, on its side of a contact only.
 ///
 /// ```
-/// use asunder_geometry::{HalfSpace, Pose3, glam::{DVec3, Vec3}};
+/// use asunder::{HalfSpace, Pose3, glam::{DVec3, Vec3}};
 /// let floor = HalfSpace::new(Vec3::Y * 2.0)?;
 /// assert!(floor.contains(DVec3::X * 1e9) && !floor.contains(DVec3::Y * 1e-300));
 /// assert_eq!(floor.unit_normal(), DVec3::Y);
 /// let bounds = floor.bounds(&Pose3::IDENTITY, 0.5);
 /// assert_eq!((bounds.min.y, bounds.max.x), (f32::NEG_INFINITY, f32::INFINITY));
 /// assert!((bounds.max.y - 0.5).abs() < 1e-6, "it ends where its normal is an axis");
-/// # Ok::<(), asunder_geometry::DirectionError>(())
+/// # Ok::<(), asunder::DirectionError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {

@@ -13,13 +13,13 @@ use glam::DVec2;
 /// most. Between exactly opposite rotations, it turns counter-clockwise.
 ///
 /// ```
-/// use asunder_geometry::{Motion2, Pose2, Rotation2, glam::DVec2};
+/// use asunder::{Motion2, Pose2, Rotation2, glam::DVec2};
 /// let from = Pose2::at([1.0, 0.0])?;
 /// let half_turn = Motion2::new([2.0, 0.0], Rotation2::new(-1.0, 0.0)?)?;
 /// let middle = half_turn.pose_at(&from, 0.5);
 /// assert_eq!((middle.position(), middle.rotation()), (DVec2::X * 2.0, Rotation2::new(0.0, 1.0)?));
 /// assert_eq!(half_turn.pose_at(&from, 1.0).rotation().cos(), -1.0);
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion2 {
@@ -43,12 +43,12 @@ impl Motion2 {
     /// A displacement in metres. The body keeps its rotation.
     ///
     /// ```
-    /// use asunder_geometry::{Motion2, Pose2, Rotation2, glam::DVec2};
+    /// use asunder::{Motion2, Pose2, Rotation2, glam::DVec2};
     /// let from = Pose2::new([0.0, 0.0], Rotation2::new(0.6, 0.8)?)?;
     /// let shift = Motion2::shift(DVec2::X)?;
     /// assert_eq!((shift.displacement(), shift.rotation()), (DVec2::X, None));
     /// assert_eq!((shift.pose_at(&from, 1.0).rotation(), shift.turn_speed(&from)), (from.rotation(), 0.0));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -65,12 +65,12 @@ impl Motion2 {
     /// the same rotation it is a shift.
     ///
     /// ```
-    /// use asunder_geometry::{Motion2, Pose2, Rotation2};
+    /// use asunder::{Motion2, Pose2, Rotation2};
     /// let (from, to) = (Pose2::at([1.0, 2.0])?, Pose2::new([1.5, 2.0], Rotation2::new(0.6, 0.8)?)?);
     /// let motion = Motion2::between(&from, &to)?;
     /// assert_eq!((motion.pose_at(&from, 0.0), motion.pose_at(&from, 1.0)), (from, to));
     /// assert_eq!(Motion2::between(&to, &to)?, Motion2::STILL);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -89,7 +89,7 @@ impl Motion2 {
     /// so with half a turn or more in one step a wheel appears to run backwards: take shorter steps.
     ///
     /// ```
-    /// use asunder_geometry::{Motion2, Pose2, glam::{DVec2, Vec2}};
+    /// use asunder::{Motion2, Pose2, glam::{DVec2, Vec2}};
     /// let from = Pose2::at([0.0, 2.0])?;
     /// let motion = Motion2::of_velocities(&from, [3.0, 0.0], core::f64::consts::FRAC_PI_2, 0.5)?;
     /// let to = motion.pose_at(&from, 1.0);
@@ -97,7 +97,7 @@ impl Motion2 {
     /// assert!((f64::from(to.rotation().angle()) - core::f64::consts::FRAC_PI_4).abs() < 1e-7, "an eighth of a turn");
     /// assert_eq!(Motion2::of_velocities(&from, Vec2::X, 0.0, 1.0)?, Motion2::shift(Vec2::X)?);
     /// assert!(Motion2::of_velocities(&from, Vec2::X, f64::NAN, 1.0).is_err());
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -158,11 +158,11 @@ impl Motion2 {
     /// if it does not turn. Cost: constant.
     ///
     /// ```
-    /// use asunder_geometry::{Motion2, Pose2, Rotation2};
+    /// use asunder::{Motion2, Pose2, Rotation2};
     /// let half_turn = Motion2::new([0.0, 0.0], Rotation2::new(-1.0, 0.0)?)?;
     /// let speed = half_turn.turn_speed(&Pose2::IDENTITY);
     /// assert!(speed >= 4.0 && speed < 4.001, "{speed}");
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     pub fn turn_speed(&self, from: &Pose2) -> f64 {
         let Some(to) = self.to.filter(|to| *to != from.rotation()) else { return 0.0 };

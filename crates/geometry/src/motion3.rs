@@ -19,7 +19,7 @@ use glam::{DVec3, Quat};
 /// 2).
 ///
 /// ```
-/// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Quat, Vec3}};
+/// use asunder::{Motion3, Pose3, glam::{DVec3, Quat, Vec3}};
 /// let quarter = Quat::from_xyzw(0.0, 0.0, 1.0, 1.0);
 /// let motion = Motion3::new(Vec3::X * 4.0, quarter)?;
 /// let middle = motion.pose_at(&Pose3::IDENTITY, 0.5);
@@ -28,7 +28,7 @@ use glam::{DVec3, Quat};
 /// assert!((diagonal - DVec3::new(1.0, 1.0, 0.0).normalize()).length() < 1e-7, "half of a quarter turn");
 /// assert_eq!(motion.pose_at(&Pose3::IDENTITY, 1.0).rotation(), quarter);
 /// assert_eq!((motion.displacement(), motion.rotation()), (DVec3::X * 4.0, Some(quarter)));
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion3 {
@@ -39,13 +39,13 @@ pub struct Motion3 {
 /// How a body turns during a [`Motion3`]: about one axis, in f64.
 ///
 /// ```
-/// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Quat, Vec3}};
+/// use asunder::{Motion3, Pose3, glam::{DVec3, Quat, Vec3}};
 /// let half = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?;
 /// let turn = half.turn(&Pose3::IDENTITY);
 /// assert_eq!((turn.axis(), turn.speed_at(0.5), turn.top_speed()), (DVec3::Z, 4.0, half.turn_speed(&Pose3::IDENTITY)));
 /// assert!((turn.basis_at(0.5).x - DVec3::Y).length() < 1e-15);
 /// assert!(!turn.is_still());
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn3 {
@@ -75,7 +75,7 @@ impl Motion3 {
     /// A displacement in metres. The body keeps its rotation, bit for bit.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, PoseError, glam::{DVec3, Vec3}};
+    /// use asunder::{Motion3, Pose3, PoseError, glam::{DVec3, Vec3}};
     /// let up = Motion3::shift(Vec3::Y)?;
     /// assert_eq!(up.pose_at(&Pose3::IDENTITY, 0.25), Pose3::at([0.0, 0.25, 0.0])?);
     /// assert_eq!((up.rotation(), up.turn_speed(&Pose3::IDENTITY)), (None, 0.0));
@@ -97,13 +97,13 @@ impl Motion3 {
     /// the same rotation it is a shift.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, glam::Quat};
+    /// use asunder::{Motion3, Pose3, glam::Quat};
     /// let from = Pose3::at([1.0, 2.0, 3.0])?;
     /// let to = Pose3::new([1.5, 2.0, 3.0], Quat::from_xyzw(0.0, 0.6, 0.0, 0.8))?;
     /// let motion = Motion3::between(&from, &to)?;
     /// assert_eq!((motion.pose_at(&from, 0.0), motion.pose_at(&from, 1.0)), (from, to));
     /// assert_eq!(Motion3::between(&to, &to)?, Motion3::STILL);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl Motion3 {
     /// so with half a turn or more in one step a wheel appears to run backwards: take shorter steps.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, glam::{DVec3, Vec3}};
+    /// use asunder::{Motion3, Pose3, glam::{DVec3, Vec3}};
     /// let from = Pose3::at([0.0, 2.0, 0.0])?;
     /// let motion = Motion3::of_velocities(&from, [3.0, 0.0, 0.0], Vec3::Y * core::f32::consts::FRAC_PI_2, 0.5)?;
     /// let to = motion.pose_at(&from, 1.0);
@@ -132,7 +132,7 @@ impl Motion3 {
     /// assert!((ahead - DVec3::new(1.0, 0.0, 1.0).normalize()).length() < 1e-7, "an eighth of a turn");
     /// assert_eq!(Motion3::of_velocities(&from, Vec3::X, Vec3::ZERO, 1.0)?, Motion3::shift(Vec3::X)?);
     /// assert!(Motion3::of_velocities(&from, Vec3::X, Vec3::NAN, 1.0).is_err());
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -239,11 +239,11 @@ impl Motion3 {
     /// at most 1.28 times that of an even turn.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
+    /// use asunder::{Motion3, Pose3, glam::{Quat, Vec3}};
     /// let quarter = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 1.0, 0.0, 1.0))?;
     /// let speed = quarter.turn_speed(&Pose3::IDENTITY);
     /// assert!(speed > core::f64::consts::FRAC_PI_2 && speed < 1.7, "{speed}");
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     pub fn turn_speed(&self, from: &Pose3) -> f64 {
         self.turn(from).top_speed()
@@ -273,10 +273,10 @@ impl Turn3 {
     /// angle, 2 for half a turn.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
+    /// use asunder::{Motion3, Pose3, glam::{Quat, Vec3}};
     /// let quarter = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 1.0, 0.0, 1.0))?.turn(&Pose3::IDENTITY);
     /// assert!(quarter.chord() >= 2_f64.sqrt() && quarter.chord() < 1.4143);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn chord(&self) -> f64 {
@@ -318,12 +318,12 @@ impl Turn3 {
     /// per whole motion squared.
     ///
     /// ```
-    /// use asunder_geometry::{Motion3, Pose3, glam::{Quat, Vec3}};
+    /// use asunder::{Motion3, Pose3, glam::{Quat, Vec3}};
     /// let turn = Motion3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?.turn(&Pose3::IDENTITY);
     /// let [speed, change] = turn.bounds_within(0.0, 0.25);
     /// assert!(speed >= turn.speed_at(0.25) && speed < 3.3 && change > 4.0);
     /// assert_eq!(turn.bounds_within(0.0, 1.0)[0], turn.top_speed());
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     pub fn bounds_within(&self, from: f64, to: f64) -> [f64; 2] {
         if self.is_still() {

@@ -7,11 +7,11 @@ use glam::{DVec3, Vec3};
 /// no count.
 ///
 /// ```
-/// use asunder_geometry::{Shape3, Triangle3, glam::Vec3};
+/// use asunder::{Shape3, Triangle3, glam::Vec3};
 /// let triangle = Shape3::from(Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::Y)?);
 /// let core = triangle.core();
 /// assert_eq!(core.vertex_octets()[0].x, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-/// # Ok::<(), asunder_geometry::VertexError>(())
+/// # Ok::<(), asunder::VertexError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
@@ -28,12 +28,12 @@ pub struct VertexOctet {
 /// error bound, but never a proof. Places past the last face have infinite height, so that nothing is beyond them.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+/// use asunder::{Cuboid, Shape3, glam::Vec3};
 /// let cuboid = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
 /// let core = cuboid.core();
 /// let faces = &core.face_octets()[0];
 /// assert_eq!((faces.z[5], faces.height[5], faces.height[6]), (1.0, 3.0, f32::INFINITY));
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
@@ -52,13 +52,13 @@ pub struct FaceOctet {
 /// direction they face ([`EdgeOctet::SORTED_FROM`]). Places past the last edge have faces of infinite height.
 ///
 /// ```
-/// use asunder_geometry::{Hull, Shape3, glam::Vec3};
+/// use asunder::{Hull, Shape3, glam::Vec3};
 /// let tetrahedron = Shape3::from(Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z])?);
 /// let core = tetrahedron.core();
 /// let edges = &core.edge_octets()[0];
 /// assert_eq!((edges.sides[0].height[5].is_finite(), edges.sides[0].height[6]), (true, f32::INFINITY));
 /// assert_eq!(edges.numbers[..6], [0, 1, 2, 3, 4, 5]);
-/// # Ok::<(), asunder_geometry::HullError>(())
+/// # Ok::<(), asunder::HullError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeOctet {
@@ -73,12 +73,12 @@ pub struct EdgeOctet {
 /// The arc of an edge on the Gauss map, in f32: good for proposing candidates, as [`FaceOctet`].
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Shape3, glam::Vec3};
+/// use asunder::{Cuboid, Shape3, glam::Vec3};
 /// let cuboid = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let core = cuboid.core();
 /// assert_eq!(core.topology().ends(core.topology().edges()[0] as usize), (0, 4));
 /// assert_eq!(core.arcs()[0].along, Vec3::Z);
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeArc {

@@ -10,12 +10,12 @@ use glam::{DAffine2, DVec2};
 /// rounding of unit length; that tiny scale counts as part of the true shape.
 ///
 /// ```
-/// use asunder_geometry::Rotation2;
+/// use asunder::Rotation2;
 /// let quarter = Rotation2::new(0.0, 2.0)?;
 /// assert_eq!((quarter.cos(), quarter.sin()), (0.0, 1.0));
 /// let eighth = Rotation2::from_angle(std::f32::consts::FRAC_PI_4)?;
 /// assert!((eighth.cos() - eighth.sin()).abs() < 1e-7);
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation2 {
@@ -53,7 +53,7 @@ impl Rotation2 {
     /// hundred.
     ///
     /// ```
-    /// use asunder_geometry::{PoseError, Rotation2};
+    /// use asunder::{PoseError, Rotation2};
     /// let sent = Rotation2::from_angle(2.5)?;
     /// assert_eq!(Rotation2::restored(sent.cos(), sent.sin()), Ok(sent));
     /// assert_eq!(Rotation2::restored(0.8, 0.8), Err(PoseError::NotUnit { cos: 0.8, sin: 0.8 }));
@@ -85,9 +85,9 @@ impl Rotation2 {
     /// The angle in radians, counter-clockwise from the x axis, -pi to pi, by `libm`: the same bits on every platform.
     ///
     /// ```
-    /// use asunder_geometry::Rotation2;
+    /// use asunder::Rotation2;
     /// assert_eq!(Rotation2::new(0.0, -3.0)?.angle(), -std::f32::consts::FRAC_PI_2);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     pub fn angle(&self) -> f32 {
         libm::atan2(f64::from(self.sin), f64::from(self.cos)) as f32
@@ -122,10 +122,10 @@ impl Default for Rotation2 {
 /// The pose of a body in the plane: an f64 position in metres and an f32 rotation.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
+/// use asunder::{Pose2, Rotation2, glam::{DVec2, Vec2}};
 /// let pose = Pose2::new(DVec2::new(1e6, 0.25), Rotation2::new(0.0, 1.0)?)?;
 /// assert_eq!(pose.transform(Vec2::X).to_array(), [1e6, 1.25]);
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose2 {
@@ -170,12 +170,12 @@ impl Pose2 {
     /// The pose with another position, in metres (`Vec2`, `DVec2`, or an array of f64), and the same rotation.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// use asunder::{Pose2, Rotation2, glam::DVec2};
     /// let pose = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
     /// let there = pose.with_position([7.0, 8.0])?;
     /// assert_eq!((there.position(), there.rotation()), (DVec2::new(7.0, 8.0), pose.rotation()));
     /// assert_eq!(there.with_rotation(Rotation2::IDENTITY), Pose2::at([7.0, 8.0])?);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -193,12 +193,12 @@ impl Pose2 {
     /// The pose moved by a displacement in metres (`Vec2`, `DVec2`, or an array of f64); the rotation is kept.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// use asunder::{Pose2, Rotation2, glam::DVec2};
     /// let pose = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
     /// let moved = pose.shifted(DVec2::X * 3.0)?;
     /// assert_eq!((moved.position(), moved.rotation()), (DVec2::new(4.0, 2.0), pose.rotation()));
     /// assert!(pose.shifted(DVec2::Y * 1e9).is_err(), "out of range");
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -224,12 +224,12 @@ impl Pose2 {
     /// [`Pose3::to_affine`](crate::Pose3::to_affine) applies here, too.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::{Affine2, DAffine2, DVec2, Vec2}};
+    /// use asunder::{Pose2, Rotation2, glam::{Affine2, DAffine2, DVec2, Vec2}};
     /// let body = Pose2::new([1e6, 0.25], Rotation2::new(0.0, 1.0)?)?;
     /// let eye = DVec2::new(1e6, 0.0);
     /// let seen: Affine2 = (DAffine2::from_translation(-eye) * body.to_affine()).as_affine2();
     /// assert_eq!(seen.transform_point2(Vec2::X), Vec2::new(0.0, 1.25));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn to_affine(&self) -> DAffine2 {
@@ -239,10 +239,10 @@ impl Pose2 {
     /// Transforms a local direction to world axes, for example the direction in which the body faces.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// use asunder::{Pose2, Rotation2, glam::DVec2};
     /// let pose = Pose2::new([7.0, 8.0], Rotation2::new(0.0, 1.0)?)?;
     /// assert_eq!((pose.turn(DVec2::X), pose.turn_back(DVec2::Y)), (DVec2::Y, DVec2::X));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn turn(&self, direction: DVec2) -> DVec2 {
@@ -268,11 +268,11 @@ impl Pose2 {
     /// shortest turn; at least the distance between where any of them starts and ends. Rounded up.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2};
+    /// use asunder::{Pose2, Rotation2};
     /// let half = Pose2::new([3.0, 0.0], Rotation2::new(-1.0, 0.0)?)?;
     /// let travel = Pose2::IDENTITY.travel(&half, 2.0);
     /// assert!((7.0..7.0001).contains(&travel), "three, and across a circle of two");
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn travel(&self, to: &Self, arm: f64) -> f64 {
@@ -290,11 +290,11 @@ impl Pose2 {
     /// Whether every stored bit of the rotation is equal.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2};
+    /// use asunder::{Pose2, Rotation2};
     /// let turned = Pose2::new([1.0, 2.0], Rotation2::new(0.6, 0.8)?)?;
     /// let moved = turned.shifted([1.0, 0.0])?;
     /// assert!(turned.same_rotation(&moved) && !turned.same_bits(&moved));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn same_rotation(&self, other: &Self) -> bool {

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3, Quat};
 /// Why a pose was rejected.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, PoseError, glam::{Quat, Vec3}};
+/// use asunder::{Pose3, PoseError, glam::{Quat, Vec3}};
 /// let refused = Pose3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 0.0, 0.0));
 /// assert_eq!(refused.unwrap_err(), PoseError::ZeroRotation);
 /// ```
@@ -111,12 +111,12 @@ pub(crate) fn check_rotation(components: &[f32]) -> Result<(), PoseError> {
 /// as a fresh one.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, glam::{Quat, Vec3}};
+/// use asunder::{Pose3, glam::{Quat, Vec3}};
 /// let drifted = Quat::from_xyzw(0.0, 0.0, 3.0, 3.0); // a quarter turn about z, far from unit length
 /// let pose = Pose3::new(Vec3::new(1e6, 0.0, 0.0), drifted)?;
 /// assert_eq!(pose.rotation(), drifted);
 /// assert_eq!(pose.transform(Vec3::X).to_array(), [1e6, 1.0, 0.0]);
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 // The rotation comes first: copies are made in chunks of sixteen bytes, and a load right after one must not straddle
 // two of these stores.
@@ -169,12 +169,12 @@ impl Pose3 {
     /// The pose with another position, in metres (`Vec3`, `DVec3`, or an array of f64), and the same rotation.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat}};
     /// let pose = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
     /// let there = pose.with_position([7.0, 8.0, 9.0])?;
     /// assert_eq!((there.position(), there.rotation()), (DVec3::new(7.0, 8.0, 9.0), pose.rotation()));
     /// assert_eq!(there.with_rotation(Quat::IDENTITY)?, Pose3::at([7.0, 8.0, 9.0])?);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -194,12 +194,12 @@ impl Pose3 {
     /// The pose moved by a displacement in metres (`Vec3`, `DVec3`, or an array of f64); the rotation is kept.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat}};
     /// let pose = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
     /// let moved = pose.shifted(DVec3::X * 3.0)?;
     /// assert_eq!((moved.position(), moved.rotation()), (DVec3::new(4.0, 2.0, 3.0), pose.rotation()));
     /// assert!(pose.shifted(DVec3::Y * 1e9).is_err(), "out of range");
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -218,12 +218,12 @@ impl Pose3 {
     /// rotations are equal. Cost: that of [`Pose3::basis`], and a product of quaternions.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat, Vec3}};
     /// let tilted = Pose3::new(Vec3::ZERO, Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
     /// assert_eq!(tilted.basis_from(&tilted), Pose3::IDENTITY.basis());
     /// let quarter = Pose3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 1.0))?;
     /// assert_eq!(quarter.basis_from(&Pose3::IDENTITY).x, DVec3::Y);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn basis_from(&self, other: &Self) -> Basis3 {
@@ -234,12 +234,12 @@ impl Pose3 {
     /// units of 2^-53, and exactly the identity if both rotations are equal. Cost: that of [`Pose3::basis_from`].
     ///
     /// ```
-    /// use asunder_geometry::{Basis3, Pose3, glam::{DVec3, Quat, Vec3}};
+    /// use asunder::{Basis3, Pose3, glam::{DVec3, Quat, Vec3}};
     /// let lying = Pose3::new(Vec3::ZERO, Quat::from_xyzw(1.0, 0.0, 0.0, 1.0))?;
     /// let turned = Pose3::new(Vec3::ZERO, Quat::from_xyzw(0.0, 0.0, 1.0, 1.0) * lying.rotation())?;
     /// assert_eq!(turned.turn_since(&lying).turn(DVec3::X), DVec3::Y);
     /// assert_eq!(lying.turn_since(&lying), Basis3::UNIT);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn turn_since(&self, other: &Self) -> Basis3 {
@@ -274,14 +274,14 @@ impl Pose3 {
     /// Rounded to f32, it gets coarser with the distance from the origin. To avoid jitter, draw relative to the camera:
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DAffine3, DVec3, Mat4, Quat, Vec3A}};
+    /// use asunder::{Pose3, glam::{DAffine3, DVec3, Mat4, Quat, Vec3A}};
     /// let body = Pose3::new([1e6, 2.0, 0.25], Quat::from_xyzw(0.0, 0.0, 3.0, 3.0))?;
     /// let eye = DVec3::new(1e6, 0.0, 0.0);
     /// let seen = DAffine3::from_translation(-eye) * body.to_affine();
     /// assert_eq!(seen.as_affine3a().transform_point3a(Vec3A::X), Vec3A::new(0.0, 3.0, 0.25));
     /// let matrix: Mat4 = Mat4::from(seen.as_affine3a());
     /// assert_eq!(matrix.w_axis.to_array(), [0.0, 2.0, 0.25, 1.0]);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn to_affine(&self) -> DAffine3 {
@@ -292,10 +292,10 @@ impl Pose3 {
     /// Transforms a local direction to world axes, for example the direction in which the body faces.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat}};
     /// let pose = Pose3::new([7.0, 8.0, 9.0], Quat::from_xyzw(0.0, 0.0, 1.0, 1.0))?;
     /// assert_eq!((pose.turn(DVec3::X), pose.turn_back(DVec3::Y)), (DVec3::Y, DVec3::X));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn turn(&self, direction: DVec3) -> DVec3 {
@@ -322,13 +322,13 @@ impl Pose3 {
     /// shortest turn; at least the distance between where any of them starts and ends. Rounded up.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::Quat};
+    /// use asunder::{Pose3, glam::Quat};
     /// let half = Pose3::new([3.0, 0.0, 0.0], Quat::from_xyzw(0.0, 0.0, 1.0, 0.0))?;
     /// let travel = Pose3::IDENTITY.travel(&half, 2.0);
     /// assert!((7.0..7.0001).contains(&travel), "three, and across a circle of two");
     /// let same = Pose3::new([3.0, 0.0, 0.0], Quat::from_xyzw(0.0, 0.0, -2.0, 0.0))?;
     /// assert_eq!([half, same].map(|pose| half.travel(&pose, f64::INFINITY)), [0.0, 0.0]);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn travel(&self, to: &Self, arm: f64) -> f64 {
@@ -358,11 +358,11 @@ impl Pose3 {
     /// Whether every stored bit of the rotation is equal.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::Quat};
+    /// use asunder::{Pose3, glam::Quat};
     /// let turned = Pose3::new([1.0, 2.0, 3.0], Quat::from_xyzw(0.1, 0.2, 0.3, 0.4))?;
     /// let moved = turned.shifted([1.0, 0.0, 0.0])?;
     /// assert!(turned.same_rotation(&moved) && !turned.same_bits(&moved));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[inline]
     pub fn same_rotation(&self, other: &Self) -> bool {

@@ -6,7 +6,7 @@ use crate::tolerance::{MAX_RADIUS, MIN_RADIUS};
 /// Why a radius was rejected.
 ///
 /// ```
-/// use asunder_geometry::{RadiusError, Sphere};
+/// use asunder::{RadiusError, Sphere};
 /// assert_eq!(Sphere::new(-0.5).unwrap_err(), RadiusError::Negative { value: -0.5 });
 /// assert!(Sphere::new(0.0).unwrap_err().to_string().contains("0.000001"));
 /// ```

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// direction.
 ///
 /// ```
-/// use asunder_geometry::{DirectionError, Ray2, RayError, glam::{DVec2, Vec2}};
+/// use asunder::{DirectionError, Ray2, RayError, glam::{DVec2, Vec2}};
 /// let ray = Ray2::new(DVec2::X, Vec2::Y * 2.0)?;
 /// assert_eq!(ray.at(0.5), DVec2::X + DVec2::Y);
 /// assert_eq!(Ray2::new(DVec2::X, Vec2::ZERO), Err(RayError::Direction(DirectionError::Zero)));
@@ -38,7 +38,7 @@ impl Ray2 {
     /// vector's length.
     ///
     /// ```
-    /// use asunder_geometry::{Ray2, RayError, glam::DVec2};
+    /// use asunder::{Ray2, RayError, glam::DVec2};
     /// let sight = Ray2::between([1e6, 0.0], [1e6, 5.0])?;
     /// assert_eq!((sight.at(0.0), sight.at(1.0)), (DVec2::X * 1e6, DVec2::X * 1e6 + DVec2::Y * 5.0));
     /// assert!(Ray2::between(DVec2::X, DVec2::X).is_err(), "points nowhere");
@@ -55,7 +55,7 @@ impl Ray2 {
     /// The origin, in metres.
     ///
     /// ```
-    /// use asunder_geometry::{Ray2, RayError, glam::{DVec2, Vec2}};
+    /// use asunder::{Ray2, RayError, glam::{DVec2, Vec2}};
     /// let ray = Ray2::new(DVec2::X, Vec2::Y)?;
     /// assert_eq!((ray.origin(), ray.direction()), (DVec2::X, Vec2::Y));
     /// # Ok::<(), RayError>(())
@@ -81,7 +81,7 @@ impl Ray2 {
 /// A ray in space: an origin, and a direction of any length but zero. The point at parameter t is origin + t direction.
 ///
 /// ```
-/// use asunder_geometry::{DirectionError, Ray3, RayError, glam::{DVec3, Vec3}};
+/// use asunder::{DirectionError, Ray3, RayError, glam::{DVec3, Vec3}};
 /// let ray = Ray3::new(DVec3::X, Vec3::Y * 2.0)?;
 /// assert_eq!(ray.at(0.5), DVec3::X + DVec3::Y);
 /// assert_eq!(Ray3::new(DVec3::X, Vec3::ZERO), Err(RayError::Direction(DirectionError::Zero)));
@@ -111,7 +111,7 @@ impl Ray3 {
     /// vector's length.
     ///
     /// ```
-    /// use asunder_geometry::{Ray3, RayError, glam::DVec3};
+    /// use asunder::{Ray3, RayError, glam::DVec3};
     /// let sight = Ray3::between([1e6, 0.0, 0.0], [1e6, 5.0, 0.0])?;
     /// assert_eq!((sight.at(0.0), sight.at(1.0)), (DVec3::X * 1e6, DVec3::X * 1e6 + DVec3::Y * 5.0));
     /// assert!(Ray3::between(DVec3::X, DVec3::X).is_err(), "points nowhere");
@@ -128,7 +128,7 @@ impl Ray3 {
     /// The origin, in metres.
     ///
     /// ```
-    /// use asunder_geometry::{Ray3, RayError, glam::{DVec3, Vec3}};
+    /// use asunder::{Ray3, RayError, glam::{DVec3, Vec3}};
     /// let ray = Ray3::new(DVec3::X, Vec3::Y)?;
     /// assert_eq!((ray.origin(), ray.direction()), (DVec3::X, Vec3::Y));
     /// # Ok::<(), RayError>(())
@@ -154,7 +154,7 @@ impl Ray3 {
 /// Why a ray was rejected.
 ///
 /// ```
-/// use asunder_geometry::{PoseError, Ray3, RayError, glam::Vec3};
+/// use asunder::{PoseError, Ray3, RayError, glam::Vec3};
 /// let refused = Ray3::new([0.0, 2e9, 0.0], Vec3::X).unwrap_err();
 /// assert_eq!(refused, RayError::Origin(PoseError::PositionTooFar { axis: 1, value: 2e9 }));
 /// ```

@@ -17,11 +17,11 @@ use glam::{DVec2, Vec2};
 /// Four normals; two contact points at most. Half extents above zero, bounding radius 1e-6 to 1e6 m.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rect, glam::Vec2};
+/// use asunder::{Pose2, Rect, glam::Vec2};
 /// let rect = Rect::from_half_extents(Vec2::new(2.0, 1.0))?;
 /// assert_eq!(rect.vertices()[2], Vec2::new(2.0, 1.0));
 /// assert!(rect.bounds(&Pose2::IDENTITY, 0.5).contains(Vec2::new(2.5, -1.5)));
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
@@ -46,7 +46,7 @@ impl Rect {
     /// The same rectangle expanded by `radius` metres on every side, with round corners. Zero removes the rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Rect, glam::{DVec2, Vec2}};
+    /// use asunder::{Rect, glam::{DVec2, Vec2}};
     /// let rounded = Rect::from_half_extents(Vec2::ONE)?.rounded(0.5)?;
     /// assert!(rounded.contains(DVec2::new(1.5, 0.0)) && !rounded.contains(DVec2::new(1.4, 1.4)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -68,7 +68,7 @@ impl Rect {
     /// Half of the width and height, in metres, without the rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Rect, glam::Vec2};
+    /// use asunder::{Rect, glam::Vec2};
     /// let half = Vec2::new(1.0, 2.0);
     /// assert_eq!(Rect::from_half_extents(half)?.rounded(0.5)?.half_extents(), half);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -12,14 +12,14 @@ impl Pose3 {
     /// of both is the identity. The quaternion may have any length. [`Pose3::relative_to`] is the inverse.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat, Vec3}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat, Vec3}};
     /// let quarter = Quat::from_xyzw(0.0, 0.0, 1.0, 1.0);
     /// let (hand, lantern) = (Pose3::new([5.0, 1.0, 0.0], quarter)?, Pose3::new([2.0, 0.0, 0.0], quarter)?);
     /// let shown = hand.compose(&lantern)?;
     /// assert_eq!((shown.position(), shown.turn(DVec3::X)), (DVec3::new(5.0, 3.0, 0.0), DVec3::NEG_X));
     /// assert_eq!(shown.transform(Vec3::Y), hand.transform(lantern.transform(Vec3::Y)));
     /// assert_eq!(hand.compose(&Pose3::IDENTITY)?, hand);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl Pose3 {
     /// Positions are subtracted before they are rotated, so that it is as accurate far from the origin.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, glam::{DVec3, Quat}};
+    /// use asunder::{Pose3, glam::{DVec3, Quat}};
     /// let quarter = Quat::from_xyzw(0.0, 0.0, 1.0, 1.0);
     /// let (cart, wheel) = (Pose3::new([5e6, 1.0, 0.0], quarter)?, Pose3::at([5e6, 3.5, 0.0])?);
     /// let mounted = wheel.relative_to(&cart)?;
@@ -44,7 +44,7 @@ impl Pose3 {
     /// assert_eq!(cart.compose(&mounted)?.position(), wheel.position());
     /// let back = Pose3::IDENTITY.relative_to(&cart)?;
     /// assert_eq!(back.transform(wheel.position()), mounted.position());
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -72,14 +72,14 @@ impl Pose2 {
     /// of both is the identity. [`Pose2::relative_to`] is the inverse.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::{DVec2, Vec2}};
+    /// use asunder::{Pose2, Rotation2, glam::{DVec2, Vec2}};
     /// let quarter = Rotation2::new(0.0, 1.0)?;
     /// let (tank, turret) = (Pose2::new([5.0, 1.0], quarter)?, Pose2::new([2.0, 0.0], quarter)?);
     /// let shown = tank.compose(&turret)?;
     /// assert_eq!((shown.position(), shown.turn(DVec2::X)), (DVec2::new(5.0, 3.0), DVec2::NEG_X));
     /// assert_eq!(shown.transform(Vec2::Y), tank.transform(turret.transform(Vec2::Y)));
     /// assert_eq!((tank.compose(&Pose2::IDENTITY)?, Pose2::IDENTITY.compose(&tank)?), (tank, tank));
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -92,12 +92,12 @@ impl Pose2 {
     /// inverse.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rotation2, glam::DVec2};
+    /// use asunder::{Pose2, Rotation2, glam::DVec2};
     /// let (tank, turret) = (Pose2::new([5e6, 1.0], Rotation2::new(0.0, 1.0)?)?, Pose2::at([5e6, 3.5])?);
     /// let mounted = turret.relative_to(&tank)?;
     /// assert_eq!((mounted.position(), mounted.turn(DVec2::Y)), (DVec2::new(2.5, 0.0), DVec2::X));
     /// assert_eq!(tank.compose(&mounted)?, turret);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     ///
     /// # Errors
@@ -110,12 +110,12 @@ impl Pose2 {
 /// The product of two rotations, the right one applied first, rounded to f32.
 ///
 /// ```
-/// use asunder_geometry::{Rotation2, glam::DVec2};
+/// use asunder::{Rotation2, glam::DVec2};
 /// let (quarter, eighth) = (Rotation2::new(0.0, 1.0)?, Rotation2::new(1.0, 1.0)?);
 /// let turned = (quarter * eighth).turn(DVec2::X);
 /// assert!((turned - quarter.turn(eighth.turn(DVec2::X))).length() < 1e-7);
 /// assert_eq!(quarter * quarter.inverse(), Rotation2::IDENTITY);
-/// # Ok::<(), asunder_geometry::PoseError>(())
+/// # Ok::<(), asunder::PoseError>(())
 /// ```
 impl core::ops::Mul for Rotation2 {
     type Output = Self;
@@ -129,9 +129,9 @@ impl Rotation2 {
     /// The inverse rotation.
     ///
     /// ```
-    /// use asunder_geometry::Rotation2;
+    /// use asunder::Rotation2;
     /// assert_eq!(Rotation2::new(0.0, 2.0)?.inverse(), Rotation2::new(0.0, -1.0)?);
-    /// # Ok::<(), asunder_geometry::PoseError>(())
+    /// # Ok::<(), asunder::PoseError>(())
     /// ```
     #[must_use]
     pub fn inverse(self) -> Self {

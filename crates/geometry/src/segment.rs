@@ -18,10 +18,10 @@ use robust::{Coord, orient2d};
 /// that merely cross. Two normals. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
-/// use asunder_geometry::{Segment2, glam::{DVec2, Vec2}};
+/// use asunder::{Segment2, glam::{DVec2, Vec2}};
 /// let segment = Segment2::new(Vec2::ZERO, Vec2::X)?;
 /// assert!(segment.contains(DVec2::X * 0.5) && !segment.contains(DVec2::Y));
-/// # Ok::<(), asunder_geometry::VertexError>(())
+/// # Ok::<(), asunder::VertexError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment2 {
@@ -38,11 +38,11 @@ pub struct Segment2 {
 /// within 1e6 m of the shape's origin.
 ///
 /// ```
-/// use asunder_geometry::{Capsule2, glam::{DVec2, Vec2}};
+/// use asunder::{Capsule2, glam::{DVec2, Vec2}};
 /// let upright = Capsule2::from_half_height(0.6, 0.3)?;
 /// assert!(upright.contains(DVec2::Y * 0.9) && !upright.contains(DVec2::X * 0.31));
 /// assert_eq!(upright, Capsule2::new(Vec2::Y * -0.6, Vec2::Y * 0.6, 0.3)?);
-/// # Ok::<(), asunder_geometry::CapsuleError>(())
+/// # Ok::<(), asunder::CapsuleError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule2 {
@@ -167,10 +167,10 @@ impl Capsule2 {
 /// Two segments that cross have depth zero. Length from 2e-6 m, both ends within 1e6 m of the shape's origin.
 ///
 /// ```
-/// use asunder_geometry::{Segment3, glam::{DVec3, Vec3}};
+/// use asunder::{Segment3, glam::{DVec3, Vec3}};
 /// let segment = Segment3::new(Vec3::ZERO, Vec3::X)?;
 /// assert!(segment.contains(DVec3::X * 0.5) && !segment.contains(DVec3::Y));
-/// # Ok::<(), asunder_geometry::VertexError>(())
+/// # Ok::<(), asunder::VertexError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment3 {
@@ -187,11 +187,11 @@ pub struct Segment3 {
 /// another capsule, it has two contact points. Radius from 1e-6 m; all of it within 1e6 m of the shape's origin.
 ///
 /// ```
-/// use asunder_geometry::{Capsule3, glam::{DVec3, Vec3}};
+/// use asunder::{Capsule3, glam::{DVec3, Vec3}};
 /// let upright = Capsule3::from_half_height(0.6, 0.3)?;
 /// assert!(upright.contains(DVec3::Y * 0.9) && !upright.contains(DVec3::X * 0.31));
 /// assert_eq!(upright, Capsule3::new(Vec3::Y * -0.6, Vec3::Y * 0.6, 0.3)?);
-/// # Ok::<(), asunder_geometry::CapsuleError>(())
+/// # Ok::<(), asunder::CapsuleError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capsule3 {
@@ -304,7 +304,7 @@ impl Capsule3 {
 /// Why a capsule was rejected.
 ///
 /// ```
-/// use asunder_geometry::{Capsule3, CapsuleError, RadiusError, VertexError};
+/// use asunder::{Capsule3, CapsuleError, RadiusError, VertexError};
 /// assert_eq!(Capsule3::from_half_height(0.5, -1.0), Err(CapsuleError::Radius(RadiusError::Negative { value: -1.0 })));
 /// let point = Capsule3::from_half_height(0.0, 1.0);
 /// assert_eq!(point, Err(CapsuleError::Ends(VertexError::Repeated { first: 0, second: 1 })));

@@ -26,18 +26,18 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 /// A shape in the plane. Cloning is cheap: large data is shared.
 ///
 /// ```
-/// use asunder_geometry::{Rect, Pose2, Shape2, glam::{DVec2, Vec2}};
+/// use asunder::{Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
 /// let shape = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
 /// assert!(shape.outer_radius() >= 2_f32.sqrt());
 /// assert!(shape.bounds(&Pose2::IDENTITY, 0.0).contains(Vec2::ONE) && shape.contains(Vec2::ONE));
 /// assert_eq!(shape.support(DVec2::ONE), Some(DVec2::ONE));
 /// assert_eq!((shape.radius(), shape.core().vertices().len()), (0.0, 4));
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 ///
 /// ```
 /// // Every kind comes from a type of its own.
-/// use asunder_geometry::{Capsule2, Chain, Circle, Compound2, HalfPlane, Polygon, Pose2, Rect, Segment2, Shape2, glam::Vec2};
+/// use asunder::{Capsule2, Chain, Circle, Compound2, HalfPlane, Polygon, Pose2, Rect, Segment2, Shape2, glam::Vec2};
 /// let corners = [Vec2::ZERO, Vec2::X, Vec2::Y];
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// assert!(matches!(ball, Shape2::Circle(_)));
@@ -74,19 +74,21 @@ pub enum Shape2 {
 /// A shape in space. Cloning is cheap: large data is shared.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{DVec3, Vec3}};
+/// use asunder::{Cuboid, Pose3, Shape3, glam::{DVec3, Vec3}};
 /// let shape = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// assert!(shape.outer_radius() >= 3_f32.sqrt());
 /// assert!(shape.bounds(&Pose3::IDENTITY, 0.0).contains(Vec3::ONE) && shape.contains(Vec3::ONE));
 /// assert_eq!(shape.support(DVec3::ONE), Some(DVec3::ONE));
 /// assert_eq!((shape.radius(), shape.core().vertices().len(), shape.is_ground()), (0.0, 8, false));
-/// # Ok::<(), asunder_geometry::ExtentError>(())
+/// # Ok::<(), asunder::ExtentError>(())
 /// ```
 ///
 /// ```
 /// // Every kind comes from a type of its own.
-/// use asunder_geometry::{Capsule3, Compound3, Cuboid, HalfSpace, HeightField, Hull, Pose3, Segment3, Shape3, Sphere};
-/// use asunder_geometry::{TriMesh, Triangle3, glam::{Vec2, Vec3}};
+/// use asunder::{
+///     Capsule3, Compound3, Cuboid, HalfSpace, HeightField, Hull, Pose3, Segment3, Shape3, Sphere, TriMesh, Triangle3,
+///     glam::{Vec2, Vec3},
+/// };
 /// let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// assert!(matches!(ball, Shape3::Sphere(_)));
@@ -185,7 +187,7 @@ impl Shape2 {
     /// Whether it is ground, on which bodies stand and which is always fixed: a chain. Two of them have no contacts.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, Circle, Shape2, glam::Vec2};
+    /// use asunder::{Chain, Circle, Shape2, glam::Vec2};
     /// let ground = Shape2::from(Chain::open([Vec2::X, Vec2::ZERO])?);
     /// assert!(ground.is_ground() && !Shape2::from(Circle::new(1.0)?).is_ground());
     /// # Ok::<(), Box<dyn std::error::Error>>(())

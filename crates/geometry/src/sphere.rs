@@ -15,10 +15,10 @@ use glam::DVec3;
 /// one point. Radius 1e-6 to 1e6 m.
 ///
 /// ```
-/// use asunder_geometry::{Sphere, glam::DVec3};
+/// use asunder::{Sphere, glam::DVec3};
 /// let ball = Sphere::new(0.5)?;
 /// assert!(ball.contains(DVec3::X * 0.5) && !ball.contains(DVec3::ONE * 0.5));
-/// # Ok::<(), asunder_geometry::RadiusError>(())
+/// # Ok::<(), asunder::RadiusError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
@@ -30,7 +30,7 @@ impl Sphere {
     /// radius. Use a hull of one point instead ([`Hull::of_any_dimension`](crate::Hull::of_any_dimension)).
     ///
     /// ```
-    /// use asunder_geometry::{Sphere, glam::DVec3};
+    /// use asunder::{Sphere, glam::DVec3};
     /// assert!(Sphere::POINT.contains(DVec3::ZERO) && !Sphere::POINT.contains(DVec3::X * 1e-100));
     /// ```
     pub const POINT: Self = Self { radius: 0.0 };

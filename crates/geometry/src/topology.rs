@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 /// A directed edge of a face, from its origin to the origin of the next.
 ///
 /// ```
-/// use asunder_geometry::Cuboid;
+/// use asunder::Cuboid;
 /// let topology = Cuboid::topology();
 /// let around = topology.face_half_edges(0);
 /// assert_eq!(around.len(), 4);
@@ -32,7 +32,7 @@ pub struct HalfEdge {
 /// The half-edges of a closed polyhedron. Immutable; indices are stable, and feature ids are made from them.
 ///
 /// ```
-/// use asunder_geometry::Cuboid;
+/// use asunder::Cuboid;
 /// let topology = Cuboid::topology();
 /// let (vertices, edges, faces) = (8, topology.edges().len(), topology.face_count());
 /// assert_eq!(vertices + faces - edges, 2, "Euler's formula");
@@ -154,7 +154,7 @@ impl Topology {
     /// None for a vertex that does not exist.
     ///
     /// ```
-    /// use asunder_geometry::Cuboid;
+    /// use asunder::Cuboid;
     /// let topology = Cuboid::topology();
     /// let mut neighbours: Vec<_> = topology.leaving(0).iter().map(|&h| topology.ends(h.into()).1).collect();
     /// neighbours.sort();

@@ -22,11 +22,11 @@ use std::sync::LazyLock;
 /// origin.
 ///
 /// ```
-/// use asunder_geometry::{Triangle3, glam::{DVec3, Vec3}};
+/// use asunder::{Triangle3, glam::{DVec3, Vec3}};
 /// let triangle = Triangle3::new(Vec3::ZERO, Vec3::X, Vec3::Y)?;
 /// assert!(triangle.contains(DVec3::new(0.25, 0.25, 0.0)) && !triangle.contains(DVec3::new(0.25, 0.25, 1e-9)));
 /// assert_eq!(triangle.normals()[0], DVec3::Z);
-/// # Ok::<(), asunder_geometry::VertexError>(())
+/// # Ok::<(), asunder::VertexError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle3 {

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// Why vertices were rejected.
 ///
 /// ```
-/// use asunder_geometry::{Segment3, VertexError, glam::Vec3};
+/// use asunder::{Segment3, VertexError, glam::Vec3};
 /// assert_eq!(Segment3::new(Vec3::X, Vec3::X).unwrap_err(), VertexError::Repeated { first: 0, second: 1 });
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_CHAIN_VERTICES, MAX_RADIUS};
 /// Why vertices were rejected as a chain.
 ///
 /// ```
-/// use asunder_geometry::{Chain, ChainError, glam::Vec2};
+/// use asunder::{Chain, ChainError, glam::Vec2};
 /// assert_eq!(Chain::open([Vec2::X, Vec2::NAN]), Err(ChainError::NotFinite { index: 1 }));
 /// let fault = Chain::closed([Vec2::X, Vec2::Y, Vec2::Y]).unwrap_err();
 /// assert_eq!(fault, ChainError::TooFew { count: 2, needed: 3 });

@@ -56,14 +56,14 @@ use tree::Tree;
 ///   [`HalfPlane`](crate::HalfPlane) or a compound stops them better.
 ///
 /// ```
-/// use asunder_geometry::{Chain, glam::{DVec2, Vec2}};
+/// use asunder::{Chain, glam::{DVec2, Vec2}};
 /// let hill = [(9.0, 0.0), (4.0, 0.0), (2.0, 1.5), (-3.0, 1.5), (-3.0, 1.5)].map(|(x, y)| Vec2::new(x, y));
 /// let ground = Chain::open(hill)?.one_sided();
 /// assert_eq!((ground.segment_count(), ground.dropped()), (3, 1));
 /// assert!(ground.contains(DVec2::new(7.0, 0.0)) && !ground.contains(DVec2::new(7.0, -1.0)));
 /// let island = Chain::closed([Vec2::ZERO, Vec2::X, Vec2::Y])?;
 /// assert_eq!(island.segment(2).map(|segment| segment.ends()), Some([Vec2::Y, Vec2::ZERO]));
-/// # Ok::<(), asunder_geometry::ChainError>(())
+/// # Ok::<(), asunder::ChainError>(())
 /// ```
 #[derive(Clone)]
 pub struct Chain {
@@ -248,14 +248,14 @@ impl Chain {
     /// breaks off. Cost: linear in those segments, logarithmic in all.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, Chain, glam::Vec2};
+    /// use asunder::{Aabb2, Chain, glam::Vec2};
     /// use core::ops::ControlFlow;
     /// let ground = Chain::open((0..1000).map(|x| Vec2::new(x as f32, 0.0)))?;
     /// let mut near = Vec::new();
     /// let at = Aabb2::new(Vec2::new(500.25, -1.0), Vec2::new(501.5, 1.0));
     /// assert!(ground.visit_near(&at, |segment| { near.push(segment); ControlFlow::Continue(()) }).is_continue());
     /// assert_eq!(near, [500, 501]);
-    /// # Ok::<(), asunder_geometry::ChainError>(())
+    /// # Ok::<(), asunder::ChainError>(())
     /// ```
     pub fn visit_near(&self, bounds: &Aabb2, visit: impl FnMut(u32) -> ControlFlow<()>) -> ControlFlow<()> {
         self.visit_where(|other| bounds.overlaps(other), visit)
@@ -278,16 +278,16 @@ impl Chain {
     /// The bound of a box must not exceed any value that the visitor finds in it. If it is NaN, the box is visited.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, glam::Vec2};
+    /// use asunder::{Chain, glam::Vec2};
     /// let ground = Chain::open((0..1000).map(|x| Vec2::new(x as f32, 0.0)))?;
     /// let (mut lowest, mut visited) = (f64::INFINITY, 0);
-    /// let to_the_left_of = |bounds: &asunder_geometry::Aabb2| f64::from(bounds.min.x);
+    /// let to_the_left_of = |bounds: &asunder::Aabb2| f64::from(bounds.min.x);
     /// ground.visit_nearest(f64::INFINITY, to_the_left_of, |segment| {
     ///     (lowest, visited) = (lowest.min(f64::from(segment)), visited + 1);
     ///     lowest
     /// });
     /// assert_eq!((lowest, visited), (0.0, 1));
-    /// # Ok::<(), asunder_geometry::ChainError>(())
+    /// # Ok::<(), asunder::ChainError>(())
     /// ```
     pub fn visit_nearest(&self, limit: f64, bound: impl FnMut(&Aabb2) -> f64, visit: impl FnMut(u32) -> f64) {
         self.data.tree.visit_nearest(&|segment| self.ends(segment), limit, bound, visit);

@@ -19,7 +19,7 @@ use glam::{DVec2, Vec2};
 /// Segments of a chain that lie on one line up to the rounding of their vertices, and act as one segment in contacts.
 ///
 /// ```
-/// use asunder_geometry::{Chain, glam::Vec2};
+/// use asunder::{Chain, glam::Vec2};
 /// let step = [(3.0, 0.0), (2.0, 0.0), (0.0, 0.0), (0.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
 /// let chain = Chain::open(step)?;
 /// let run = chain.run_of(1).ok_or("there are three segments")?;

@@ -13,7 +13,7 @@ use crate::tolerance::{MAX_PARTS, MAX_RADIUS};
 /// Why parts were rejected as a compound.
 ///
 /// ```
-/// use asunder_geometry::{Compound3, CompoundError};
+/// use asunder::{Compound3, CompoundError};
 /// assert_eq!(Compound3::new([]), Err(CompoundError::NoParts));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

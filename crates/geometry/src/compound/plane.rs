@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// parts nearby.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
+/// use asunder::{Circle, Compound2, Pose2, Rect, Shape2, glam::{DVec2, Vec2}};
 /// let head: Shape2 = Circle::new(0.4)?.into();
 /// let body: Shape2 = Rect::from_half_extents(Vec2::new(0.1, 1.0))?.into();
 /// let hammer = Compound2::new([(Pose2::at([0.0, 1.0])?, head), (Pose2::IDENTITY, body)])?;
@@ -48,7 +48,7 @@ struct Data2 {
 /// A part of a compound in the plane.
 ///
 /// ```
-/// use asunder_geometry::{Compound2, Circle, Pose2, Shape2};
+/// use asunder::{Circle, Compound2, Pose2, Shape2};
 /// let ball: Shape2 = Circle::new(1.0)?.into();
 /// let part = &Compound2::new([(Pose2::IDENTITY, ball.clone())])?.parts()[0].clone();
 /// assert_eq!((part.pose(), part.shape()), (&Pose2::IDENTITY, &ball));
@@ -162,7 +162,7 @@ impl Compound2 {
     /// that are passed.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
+    /// use asunder::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
     /// use core::ops::ControlFlow;
     /// let ball: Shape2 = Circle::new(0.5)?.into();
     /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
@@ -191,7 +191,7 @@ impl Compound2 {
     /// met. Cost: as [`visit_near`](Self::visit_near).
     ///
     /// ```
-    /// use asunder_geometry::{Circle, Compound2, Pose2, Shape2, glam::DVec2};
+    /// use asunder::{Circle, Compound2, Pose2, Shape2, glam::DVec2};
     /// let ball: Shape2 = Circle::new(0.5)?.into();
     /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
     /// let mut met = vec![];
@@ -220,7 +220,7 @@ impl Compound2 {
     /// [`visit_near`](Self::visit_near).
     ///
     /// ```
-    /// use asunder_geometry::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
+    /// use asunder::{Aabb2, Circle, Compound2, Pose2, Shape2, glam::Vec2};
     /// let ball: Shape2 = Circle::new(0.5)?.into();
     /// let row = Compound2::new([(Pose2::at([0.0, 0.0])?, ball.clone()), (Pose2::at([2.0, 0.0])?, ball)])?;
     /// let mut near = vec![];
@@ -310,7 +310,7 @@ impl Compound2 {
     /// there is no such part. Cost: linear in the part's vertices.
     ///
     /// ```
-    /// use asunder_geometry::{Bounds, Compound2, Pose2, Shape2, Circle, glam::Vec2};
+    /// use asunder::{Bounds, Circle, Compound2, Pose2, Shape2, glam::Vec2};
     /// let ball: Shape2 = Circle::new(0.5)?.into();
     /// let row = Compound2::new([(Pose2::at(Vec2::ZERO)?, ball.clone()), (Pose2::at(Vec2::X * 2.0)?, ball.clone())])?;
     /// let second = row.part_bounds(&Pose2::at(Vec2::Y)?, 1).ok_or("there are two")?;
@@ -327,7 +327,7 @@ impl Compound2 {
     /// [`bounds`](Self::bounds). Cost: constant.
     ///
     /// ```
-    /// use asunder_geometry::{Bounds, Compound2, Pose2, Shape2, Circle, glam::Vec2};
+    /// use asunder::{Bounds, Circle, Compound2, Pose2, Shape2, glam::Vec2};
     /// let ball: Shape2 = Circle::new(0.5)?.into();
     /// let row = Compound2::new([(Pose2::at(Vec2::ZERO)?, ball.clone()), (Pose2::at(Vec2::X * 2.0)?, ball)])?;
     /// let pose = Pose2::at(Vec2::Y)?;

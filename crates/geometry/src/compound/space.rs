@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// parts nearby.
 ///
 /// ```
-/// use asunder_geometry::{Compound3, Cuboid, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
+/// use asunder::{Compound3, Cuboid, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
 /// let head: Shape3 = Sphere::new(0.4)?.into();
 /// let body: Shape3 = Cuboid::from_half_extents(Vec3::new(0.1, 1.0, 0.1))?.into();
 /// let hammer = Compound3::new([(Pose3::at([0.0, 1.0, 0.0])?, head), (Pose3::IDENTITY, body)])?;
@@ -48,7 +48,7 @@ struct Data3 {
 /// A part of a compound in space.
 ///
 /// ```
-/// use asunder_geometry::{Compound3, Sphere, Pose3, Shape3};
+/// use asunder::{Compound3, Pose3, Shape3, Sphere};
 /// let ball: Shape3 = Sphere::new(1.0)?.into();
 /// let part = &Compound3::new([(Pose3::IDENTITY, ball.clone())])?.parts()[0].clone();
 /// assert_eq!((part.pose(), part.shape()), (&Pose3::IDENTITY, &ball));
@@ -160,7 +160,7 @@ impl Compound3 {
     /// that are passed.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
     /// use core::ops::ControlFlow;
     /// let ball: Shape3 = Sphere::new(0.5)?.into();
     /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
@@ -189,7 +189,7 @@ impl Compound3 {
     /// met. Cost: as [`visit_near`](Self::visit_near).
     ///
     /// ```
-    /// use asunder_geometry::{Compound3, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
+    /// use asunder::{Compound3, Pose3, Shape3, Sphere, glam::{DVec3, Vec3}};
     /// let ball: Shape3 = Sphere::new(0.5)?.into();
     /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
     /// let mut met = vec![];
@@ -218,7 +218,7 @@ impl Compound3 {
     /// [`visit_near`](Self::visit_near).
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder::{Aabb3, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let ball: Shape3 = Sphere::new(0.5)?.into();
     /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
     /// let mut near = vec![];
@@ -308,7 +308,7 @@ impl Compound3 {
     /// there is no such part. Cost: linear in the part's vertices.
     ///
     /// ```
-    /// use asunder_geometry::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let ball: Shape3 = Sphere::new(0.5)?.into();
     /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball.clone())])?;
     /// let second = row.part_bounds(&Pose3::at(Vec3::Y)?, 1).ok_or("there are two")?;
@@ -325,7 +325,7 @@ impl Compound3 {
     /// [`bounds`](Self::bounds). Cost: constant.
     ///
     /// ```
-    /// use asunder_geometry::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
+    /// use asunder::{Bounds, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let ball: Shape3 = Sphere::new(0.5)?.into();
     /// let row = Compound3::new([(Pose3::at(Vec3::ZERO)?, ball.clone()), (Pose3::at(Vec3::X * 2.0)?, ball)])?;
     /// let pose = Pose3::at(Vec3::Y)?;

@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 /// Why an outline was rejected by [`decompose`](crate::decompose()). Edge `i` runs from vertex `i` to the next.
 ///
 /// ```
-/// use asunder_geometry::{DecomposeError, decompose, glam::Vec2};
+/// use asunder::{DecomposeError, decompose, glam::Vec2};
 /// let bow_tie = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)].map(Vec2::from);
 /// assert_eq!(decompose(&bow_tie).unwrap_err(), DecomposeError::Crossing { first: 0, second: 2 });
 /// let pinched = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 0.0), (0.0, 2.0)].map(Vec2::from);

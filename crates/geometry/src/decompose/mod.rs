@@ -41,12 +41,12 @@ pub use error::DecomposeError;
 /// Cost: n log n in practice: 5 to 20 ms for 4096 vertices, and 50 ms where thousands of long edges lie side by side.
 ///
 /// ```
-/// use asunder_geometry::{decompose, glam::{DVec2, Vec2}};
+/// use asunder::{decompose, glam::{DVec2, Vec2}};
 /// let angle = [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)].map(Vec2::from);
 /// let parts = decompose(&angle)?;
 /// assert_eq!(parts.parts().len(), 2);
 /// assert!(parts.contains(DVec2::new(0.5, 2.0)) && !parts.contains(DVec2::new(2.0, 2.0)));
-/// # Ok::<(), asunder_geometry::DecomposeError>(())
+/// # Ok::<(), asunder::DecomposeError>(())
 /// ```
 ///
 /// # Errors

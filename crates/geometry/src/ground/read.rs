@@ -34,7 +34,7 @@ impl Ground<'_> {
     /// most often. Cost: the same with fewer cache misses, a tenth to a half of the time on large meshes.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// use asunder::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
     /// use core::ops::ControlFlow;
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);
@@ -60,7 +60,7 @@ impl Ground<'_> {
     /// others, which costs less.
     ///
     /// ```
-    /// use asunder_geometry::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
+    /// use asunder::{Aabb3, Ground, Shape3, TriMesh, glam::Vec3};
     /// use core::ops::ControlFlow;
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::ONE], [[0, 2, 1], [1, 2, 3]])?;
     /// let shape = Shape3::from(mesh);

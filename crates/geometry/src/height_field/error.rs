@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_FIELD_SIDE, MAX_RADIUS};
 /// Why heights were rejected as a height field.
 ///
 /// ```
-/// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+/// use asunder::{HeightField, HeightFieldError, glam::Vec2};
 /// let refused = HeightField::new(2, 2, [0.0, 1.0, f32::NAN, 0.0], Vec2::ONE).unwrap_err();
 /// assert_eq!(refused, HeightFieldError::NotFinite { column: 0, row: 1 });
 /// ```

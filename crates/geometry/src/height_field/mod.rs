@@ -43,12 +43,12 @@ use std::sync::Arc;
 /// A cell takes about 16 bytes. Triangles near a place are found through the grid.
 ///
 /// ```
-/// use asunder_geometry::{HeightField, glam::{Vec2, Vec3}};
+/// use asunder::{HeightField, glam::{Vec2, Vec3}};
 /// let slope = HeightField::new(3, 2, [0.0, 1.0, 2.0, 0.0, 1.0, 2.0], Vec2::new(2.0, 5.0))?.one_sided();
 /// assert_eq!((slope.columns(), slope.rows(), slope.cell()), (3, 2, Vec2::new(2.0, 5.0)));
 /// assert_eq!((slope.height_at(3.0, 4.0), slope.height_at(4.5, 4.0)), (Some(1.5), None));
 /// assert!(slope.is_one_sided() && slope.contains(Vec3::new(3.0, 1.5, 4.0)));
-/// # Ok::<(), asunder_geometry::HeightFieldError>(())
+/// # Ok::<(), asunder::HeightFieldError>(())
 /// ```
 #[derive(Clone)]
 pub struct HeightField {
@@ -96,7 +96,7 @@ impl HeightField {
     /// The same field without the ground of some cells, each given by its column and row. Cost: that of a new field.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+    /// use asunder::{HeightField, HeightFieldError, glam::Vec2};
     /// let flat = HeightField::new(3, 3, [0.0; 9], Vec2::ONE)?;
     /// let torn = flat.clone().with_holes([(0, 0), (1, 1)])?;
     /// assert_eq!((torn.is_hole(1, 1), torn.is_hole(1, 0), torn.height_at(1.5, 1.5)), (true, false, None));
@@ -119,7 +119,7 @@ impl HeightField {
     /// [`with_holes`](Self::with_holes) is far cheaper.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+    /// use asunder::{HeightField, HeightFieldError, glam::Vec2};
     /// let slope = HeightField::new(3, 2, [0.0, 1.0, 2.0, 0.0, 1.0, 2.0], Vec2::ONE)?.with_hole(0, 0)?;
     /// assert_eq!((slope.height_at(0.5, 0.5), slope.height_at(1.5, 0.5)), (None, Some(1.5)));
     /// assert_eq!(slope.heights()[0], 0.0, "heights at holes stay");
@@ -136,7 +136,7 @@ impl HeightField {
     /// craters: a field made with `new` and `with_holes` would be built twice. Cost: that of a new field.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, HeightFieldError, glam::Vec2};
+    /// use asunder::{HeightField, HeightFieldError, glam::Vec2};
     /// let plain = HeightField::new(3, 3, [1.0; 9], Vec2::ONE)?.with_hole(0, 0)?;
     /// let mut heights = plain.heights().to_vec();
     /// heights[8] = 0.5; // column 2, row 2
@@ -201,10 +201,10 @@ impl HeightField {
     /// The cell that a triangle is in: its column and row. Materials are looked up by it.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, glam::Vec2};
+    /// use asunder::{HeightField, glam::Vec2};
     /// let field = HeightField::new(4, 3, [0.0; 12], Vec2::ONE)?;
     /// assert_eq!((field.cell_of(5), field.cell_of(6), field.cell_of(12)), (Some((2, 0)), Some((0, 1)), None));
-    /// # Ok::<(), asunder_geometry::HeightFieldError>(())
+    /// # Ok::<(), asunder::HeightFieldError>(())
     /// ```
     #[inline]
     pub fn cell_of(&self, triangle: u32) -> Option<(usize, usize)> {
@@ -216,14 +216,14 @@ impl HeightField {
     /// field. Cost: constant.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, glam::Vec2};
+    /// use asunder::{HeightField, glam::Vec2};
     /// let ridge = HeightField::new(2, 2, [0.0, 1.0, 1.0, 0.0], Vec2::ONE)?;
     /// assert_eq!([(0.0, 0.0), (0.5, 0.5), (0.75, 0.75)].map(|(x, z)| ridge.height_at(x, z)), [
     ///     Some(0.0),
     ///     Some(1.0),
     ///     Some(0.5)
     /// ]);
-    /// # Ok::<(), asunder_geometry::HeightFieldError>(())
+    /// # Ok::<(), asunder::HeightFieldError>(())
     /// ```
     pub fn height_at(&self, x: impl Into<f64>, z: impl Into<f64>) -> Option<f32> {
         self.data.grid.height_at([x.into(), z.into()])
@@ -232,10 +232,10 @@ impl HeightField {
     /// Memory that is held, in bytes; clones share it.
     ///
     /// ```
-    /// use asunder_geometry::{HeightField, glam::Vec2};
+    /// use asunder::{HeightField, glam::Vec2};
     /// let field = HeightField::new(101, 101, vec![0.0; 101 * 101], Vec2::ONE)?;
     /// assert!(field.bytes() > 10_000 * 12 && field.bytes() < 10_000 * 20);
-    /// # Ok::<(), asunder_geometry::HeightFieldError>(())
+    /// # Ok::<(), asunder::HeightFieldError>(())
     /// ```
     pub fn bytes(&self) -> usize {
         let data = &*self.data;

@@ -14,13 +14,13 @@ use std::collections::BTreeSet;
 /// A fault in a hull, as found by [`Hull::check`].
 ///
 /// ```
-/// use asunder_geometry::{Hull, HullFault, glam::Vec3};
+/// use asunder::{Hull, HullFault, glam::Vec3};
 /// let mut points = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
 /// let hull = Hull::from_points(&points)?;
 /// assert_eq!(hull.check(&points), Ok(()));
 /// points[1] = Vec3::NEG_X;
 /// assert_eq!(hull.check(&points), Err(HullFault::ForeignVertex { vertex: 1 }));
-/// # Ok::<(), asunder_geometry::HullError>(())
+/// # Ok::<(), asunder::HullError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

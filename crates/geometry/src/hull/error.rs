@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_HULL_POINTS, MAX_HULL_VERTICES, MAX_RADIUS, MIN_RADIU
 /// Why points were rejected as a hull.
 ///
 /// ```
-/// use asunder_geometry::{Hull, HullError, glam::Vec3};
+/// use asunder::{Hull, HullError, glam::Vec3};
 /// let square = [(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.0, 1.0, 1.0)].map(Vec3::from);
 /// assert_eq!(Hull::from_points(&square).unwrap_err(), HullError::Flat { dimension: 2 });
 /// ```

@@ -37,13 +37,13 @@ use std::sync::Arc;
 /// [`Hull::planarity_error`] is how far such faces are from flat.
 ///
 /// ```
-/// use asunder_geometry::{Hull, glam::Vec3};
+/// use asunder::{Hull, glam::Vec3};
 /// let mut points: Vec<Vec3> = (0..8).map(|i| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32)).collect();
 /// points.push(Vec3::splat(0.5));
 /// let cube = Hull::from_points(&points)?;
 /// assert_eq!((cube.vertices().len(), cube.topology().edges().len(), cube.topology().face_count()), (8, 12, 6));
 /// assert_eq!(cube.error(), 0.0);
-/// # Ok::<(), asunder_geometry::HullError>(())
+/// # Ok::<(), asunder::HullError>(())
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Hull {
@@ -149,7 +149,7 @@ impl Hull {
     /// rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Hull, glam::{DVec3, Vec3}};
+    /// use asunder::{Hull, glam::{DVec3, Vec3}};
     /// let rounded = Hull::from_points(&[Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z])?.rounded(0.5)?;
     /// assert!(rounded.contains(DVec3::new(0.2, 0.2, -0.5)) && !rounded.contains(DVec3::new(-0.4, -0.4, 0.2)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -16,7 +16,7 @@ impl Hull {
     /// should have 8 to 12 sides, or be capsules. For a wheel, whose axle is y as well, turn the body.
     ///
     /// ```
-    /// use asunder_geometry::{Hull, HullError, glam::DVec3};
+    /// use asunder::{Hull, HullError, glam::DVec3};
     /// let drum = Hull::prism(0.5, 1.0, 16)?;
     /// assert_eq!((drum.vertices().len(), drum.topology().face_count()), (32, 18));
     /// assert!(drum.contains(DVec3::new(1.0, 0.5, 0.0)) && !drum.contains(DVec3::new(1.0, 0.5, 1e-9)));
@@ -39,7 +39,7 @@ impl Hull {
     /// +x.
     ///
     /// ```
-    /// use asunder_geometry::{Hull, HullError, glam::DVec3};
+    /// use asunder::{Hull, HullError, glam::DVec3};
     /// let spike = Hull::pyramid(1.0, 0.25, 8)?;
     /// assert_eq!((spike.vertices().len(), spike.topology().face_count()), (9, 9));
     /// assert!(spike.contains(DVec3::Y) && spike.contains(DVec3::new(0.25, -1.0, 0.0)));

@@ -13,13 +13,13 @@ impl Hull {
     /// outside any of the points is. If [`Hull::from_points`] needs no more vertices than that, this is the same hull.
     ///
     /// ```
-    /// use asunder_geometry::{Hull, glam::Vec3};
+    /// use asunder::{Hull, glam::Vec3};
     /// // A ball of 512 points, as a hull of 32.
     /// let place = |i: u16| Vec3::new(f32::from(i % 8), f32::from(i / 8 % 8), f32::from(i / 64)) - Vec3::splat(3.5);
     /// let points: Vec<Vec3> = (0..512).map(|i| place(i).normalize()).collect();
     /// let hull = Hull::simplify(&points, 32)?;
     /// assert!(hull.vertices().len() <= 32 && hull.error() < 0.25);
-    /// # Ok::<(), asunder_geometry::HullError>(())
+    /// # Ok::<(), asunder::HullError>(())
     /// ```
     ///
     /// # Errors

@@ -29,7 +29,7 @@ use crate::shape::{Shape2, Shape3};
 /// Why a shape has no mass properties.
 ///
 /// ```
-/// use asunder_geometry::{HalfSpace, MassError, Shape3, Sphere, glam::Vec3};
+/// use asunder::{HalfSpace, MassError, Shape3, Sphere, glam::Vec3};
 /// let floor = Shape3::from(HalfSpace::new(Vec3::Y)?);
 /// assert_eq!(floor.mass_properties(1000.0), Err(MassError::Unbounded));
 /// let ball = Shape3::from(Sphere::new(0.5)?);
@@ -74,7 +74,7 @@ impl Shape2 {
     /// twice.* Cost: linear in the vertices.
     ///
     /// ```
-    /// use asunder_geometry::{Rect, Shape2, glam::{DVec2, Vec2}};
+    /// use asunder::{Rect, Shape2, glam::{DVec2, Vec2}};
     /// let plank = Shape2::from(Rect::from_half_extents(Vec2::new(2.0, 0.5))?);
     /// let properties = plank.mass_properties(3.0)?;
     /// assert_eq!((properties.mass, properties.center), (12.0, DVec2::ZERO));
@@ -111,7 +111,7 @@ impl Shape3 {
     /// corners of each face; a few allocations.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Shape3, glam::{DVec3, Vec3}};
+    /// use asunder::{Cuboid, Shape3, glam::{DVec3, Vec3}};
     /// let brick = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 2.0, 3.0))?);
     /// let properties = brick.mass_properties(2.0)?;
     /// assert_eq!((properties.mass, properties.center), (96.0, DVec3::ZERO));

@@ -10,7 +10,7 @@ use glam::{DMat3, DVec2, DVec3};
 /// [`Shape2::mass_properties`](crate::Shape2::mass_properties).
 ///
 /// ```
-/// use asunder_geometry::{Circle, MassProperties2, Pose2, Shape2, glam::DVec2};
+/// use asunder::{Circle, MassProperties2, Pose2, Shape2, glam::DVec2};
 /// let disc = Shape2::from(Circle::new(1.0)?).mass_properties(2.0)?;
 /// assert!((disc.inertia - disc.mass / 2.0).abs() < 1e-15);
 /// // Two discs on a rod without mass, as one body.
@@ -38,7 +38,7 @@ pub struct MassProperties2 {
 /// flip between equal ones from one shape to the next.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, MassProperties3, Pose3, Shape3, Sphere, glam::{DVec3, Quat, Vec3}};
+/// use asunder::{Cuboid, MassProperties3, Pose3, Shape3, Sphere, glam::{DVec3, Quat, Vec3}};
 /// let handle = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.02, 0.3, 0.02))?).mass_properties(700.0)?;
 /// let head = Shape3::from(Sphere::new(0.06)?).mass_properties(7800.0)?;
 /// let hammer = MassProperties3::combined(&[handle, head.posed(&Pose3::at([0.0, 0.3, 0.0])?)]);

@@ -5,11 +5,11 @@ use crate::tolerance::{MAX_MESH_VERTICES, MAX_RADIUS, MAX_TRIANGLES};
 /// How many triangles of a mesh were left out. [`TriMesh::is_dropped`](crate::TriMesh::is_dropped) returns which.
 ///
 /// ```
-/// use asunder_geometry::{DroppedTriangles, TriMesh, glam::Vec3};
+/// use asunder::{DroppedTriangles, TriMesh, glam::Vec3};
 /// let triangles = [[0, 2, 1], [0, 1, 1], [2, 0, 1], [1, 0, 2]];
 /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], triangles)?;
 /// assert_eq!(mesh.dropped(), DroppedTriangles { degenerate: 1, duplicate: 2 });
-/// # Ok::<(), asunder_geometry::MeshError>(())
+/// # Ok::<(), asunder::MeshError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DroppedTriangles {
@@ -24,7 +24,7 @@ pub struct DroppedTriangles {
 /// Why triangles were rejected as a mesh.
 ///
 /// ```
-/// use asunder_geometry::{MeshError, TriMesh, glam::Vec3};
+/// use asunder::{MeshError, TriMesh, glam::Vec3};
 /// let corners = [Vec3::ZERO, Vec3::X, Vec3::Z];
 /// let refused = TriMesh::new(corners, [[0, 1, 2], [0, 2, 3]]).unwrap_err();
 /// assert_eq!(refused, MeshError::NoSuchVertex { triangle: 1, vertex: 3, count: 3 });

@@ -38,12 +38,12 @@ use std::sync::Arc;
 ///   vertices per triangle it holds only boxes, and rays on a large mesh take longer.
 ///
 /// ```
-/// use asunder_geometry::{TriMesh, glam::Vec3};
+/// use asunder::{TriMesh, glam::Vec3};
 /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1]])?.one_sided();
 /// assert!(mesh.is_one_sided() && mesh.vertices().len() == 3 && mesh.triangles() == [[0, 2, 1]]);
 /// assert_eq!(mesh.dropped().degenerate, 0);
 /// assert!(mesh.contains(Vec3::new(0.25, 0.0, 0.25)) && !mesh.contains(Vec3::new(0.25, 1e-9, 0.25)));
-/// # Ok::<(), asunder_geometry::MeshError>(())
+/// # Ok::<(), asunder::MeshError>(())
 /// ```
 #[derive(Clone)]
 pub struct TriMesh {
@@ -93,10 +93,10 @@ impl TriMesh {
     /// its data are not shared; otherwise this costs nothing.
     ///
     /// ```
-    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// use asunder::{TriMesh, glam::Vec3};
     /// let leaf = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1], [0, 1, 2]])?;
     /// assert!(leaf.is_dropped(1) && !leaf.one_sided().is_dropped(1));
-    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// # Ok::<(), asunder::MeshError>(())
     /// ```
     #[must_use]
     pub fn one_sided(self) -> Self {
@@ -143,10 +143,10 @@ impl TriMesh {
     /// Whether a triangle was left out; true as well for numbers that were never given.
     ///
     /// ```
-    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// use asunder::{TriMesh, glam::Vec3};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 1, 0], [0, 2, 1], [0, 1, 2]])?;
     /// assert_eq!([0, 1, 2, 3].map(|triangle| mesh.is_dropped(triangle)), [true, false, true, true]);
-    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// # Ok::<(), asunder::MeshError>(())
     /// ```
     #[inline]
     pub fn is_dropped(&self, triangle: u32) -> bool {
@@ -156,10 +156,10 @@ impl TriMesh {
     /// Memory that is held, in bytes; clones share it.
     ///
     /// ```
-    /// use asunder_geometry::{TriMesh, glam::Vec3};
+    /// use asunder::{TriMesh, glam::Vec3};
     /// let mesh = TriMesh::new([Vec3::ZERO, Vec3::X, Vec3::Z], [[0, 2, 1]])?;
     /// assert!(mesh.bytes() > 48);
-    /// # Ok::<(), asunder_geometry::MeshError>(())
+    /// # Ok::<(), asunder::MeshError>(())
     /// ```
     pub fn bytes(&self) -> usize {
         let data = &*self.data;

@@ -5,7 +5,7 @@ use crate::tolerance::{MAX_POLYGON_VERTICES, MAX_RADIUS, MIN_RADIUS};
 /// Why the vertices of a polygon were rejected.
 ///
 /// ```
-/// use asunder_geometry::{Polygon, PolygonError, glam::Vec2};
+/// use asunder::{Polygon, PolygonError, glam::Vec2};
 /// let dart = [(0.0, 0.0), (4.0, 0.0), (1.0, 1.0), (0.0, 4.0)].map(Vec2::from);
 /// assert_eq!(Polygon::new(&dart).unwrap_err(), PolygonError::Concave { vertex: 2 });
 /// ```

@@ -30,12 +30,12 @@ pub(crate) use error::StoredPolygonError;
 /// up to rounding.
 ///
 /// ```
-/// use asunder_geometry::{Polygon, glam::Vec2};
+/// use asunder::{Polygon, glam::Vec2};
 /// let triangle = Polygon::new(&[Vec2::ZERO, Vec2::X, Vec2::Y])?;
 /// assert_eq!(triangle.vertices().len(), 3);
 /// let square = Polygon::hull_of(&[(0.0, 0.0), (1.0, 0.0), (0.5, 0.5), (1.0, 1.0), (0.0, 1.0)].map(Vec2::from))?;
 /// assert_eq!(square.vertices().len(), 4, "the inner point is no vertex");
-/// # Ok::<(), asunder_geometry::PolygonError>(())
+/// # Ok::<(), asunder::PolygonError>(())
 /// ```
 #[derive(Clone, PartialEq)]
 pub struct Polygon {
@@ -104,7 +104,7 @@ impl Polygon {
     /// Corners that in f32 lie on the line between their neighbours are dropped: of some thousands, a few.
     ///
     /// ```
-    /// use asunder_geometry::{Polygon, PolygonError, glam::Vec2};
+    /// use asunder::{Polygon, PolygonError, glam::Vec2};
     /// let diamond = Polygon::regular(2.0, 4)?;
     /// let corners = [(-2.0, 0.0), (0.0, -2.0), (2.0, 0.0), (0.0, 2.0)].map(Vec2::from);
     /// assert_eq!(diamond.vertices(), corners);
@@ -133,13 +133,13 @@ impl Polygon {
     /// no more vertices than that, it is the result, and the error is zero.
     ///
     /// ```
-    /// use asunder_geometry::{Polygon, glam::Vec2};
+    /// use asunder::{Polygon, glam::Vec2};
     /// let mut corners: Vec<Vec2> = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(Vec2::from).to_vec();
     /// corners.push(Vec2::new(2.0, -0.001));
     /// let rect = Polygon::simplify(&corners, 4)?;
     /// assert_eq!(rect.vertices(), &corners[..4]);
     /// assert!(rect.error() >= 0.001 && rect.error() < 0.001_001);
-    /// # Ok::<(), asunder_geometry::PolygonError>(())
+    /// # Ok::<(), asunder::PolygonError>(())
     /// ```
     ///
     /// # Errors
@@ -215,10 +215,10 @@ impl Polygon {
     /// From one to the next, edges face into one quadrant: these bound the search for a support vertex.
     ///
     /// ```
-    /// use asunder_geometry::{Polygon, glam::Vec2};
+    /// use asunder::{Polygon, glam::Vec2};
     /// let square = Polygon::new(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(Vec2::from))?;
     /// assert_eq!(square.extremes(), [1, 2, 3, 0]);
-    /// # Ok::<(), asunder_geometry::PolygonError>(())
+    /// # Ok::<(), asunder::PolygonError>(())
     /// ```
     #[inline]
     pub fn extremes(&self) -> [usize; 4] {
@@ -234,7 +234,7 @@ impl Polygon {
     /// The same polygon expanded by `radius` metres on every side, with round corners. Zero removes the rounding.
     ///
     /// ```
-    /// use asunder_geometry::{Polygon, glam::{DVec2, Vec2}};
+    /// use asunder::{Polygon, glam::{DVec2, Vec2}};
     /// let rounded = Polygon::new(&[Vec2::ZERO, Vec2::X, Vec2::Y])?.rounded(0.5)?;
     /// assert!(rounded.contains(DVec2::new(0.5, -0.5)) && !rounded.contains(DVec2::new(-0.4, -0.4)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -23,7 +23,7 @@ use core::array;
 /// Why a shape cannot be scaled by some factors.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, ScaleError, Shape3, Sphere, glam::Vec3};
+/// use asunder::{Cuboid, ScaleError, Shape3, Sphere, glam::Vec3};
 /// let ball = Shape3::from(Sphere::new(0.5)?);
 /// assert_eq!(ball.scaled(Vec3::new(2.0, 1.0, 2.0)), Err(ScaleError::Round));
 /// assert_eq!(ball.scaled(Vec3::new(1.0, 0.0, 1.0)), Err(ScaleError::Factor { axis: 1, value: 0.0 }));

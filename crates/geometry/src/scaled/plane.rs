@@ -22,7 +22,7 @@ impl Shape2 {
     /// too close are dropped, as in [`Chain::open`]. Cost: that of making the shape.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, Rect, Shape2, glam::Vec2};
+    /// use asunder::{Chain, Rect, Shape2, glam::Vec2};
     /// let sprite = Shape2::from(Rect::from_half_extents(Vec2::new(8.0, 16.0))?);
     /// let (player, flipped) = (sprite.scaled(Vec2::splat(1.0 / 32.0))?, sprite.scaled(Vec2::new(-1.0, 1.0))?);
     /// assert!(player.contains(Vec2::new(0.25, 0.5)) && flipped == sprite);

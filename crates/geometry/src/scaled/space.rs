@@ -30,7 +30,7 @@ impl Shape3 {
     /// Cost: that of making the shape.
     ///
     /// ```
-    /// use asunder_geometry::{Capsule3, Hull, Shape3, glam::Vec3};
+    /// use asunder::{Capsule3, Hull, Shape3, glam::Vec3};
     /// // A model in centimetres.
     /// let model = Shape3::from(Capsule3::from_half_height(60.0, 30.0)?);
     /// let player = model.scaled(Vec3::splat(0.01))?;
