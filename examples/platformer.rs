@@ -19,28 +19,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hero = Shape2::from(Capsule2::from_half_height(0.3, 0.3)?);
     let walk = Walk2::new(&hero, Vec2::Y)?;
     let mut pose = Pose2::at([1.0, 0.61])?;
-    let (mut fall, mut stands_on, mut trace) = (0.0, None, Vec::new());
+    let (mut fall, mut footing, mut trace) = (0.0, None, Vec::new());
     for frame in 0..80 {
         // The lift moves first, and takes along who stands on it.
         let rise: f32 = if frame < 40 { 0.0 } else { 0.08 };
-        let at = world.pose(lift).ok_or("the lift is gone")?.position() + DVec2::Y * f64::from(rise);
-        world.set_pose(lift, Pose2::at(at)?)?;
-        if stands_on == Some(lift) {
-            pose = Pose2::at(pose.position() + DVec2::Y * f64::from(rise))?;
+        let lifted = world.pose(lift).ok_or("the lift is gone")?.shifted(DVec2::Y * f64::from(rise))?;
+        world.set_pose(lift, lifted)?;
+        let feet = pose.position().y - 0.6;
+        if let Some(footing) = &footing {
+            pose = world.carried(footing, &pose);
         }
         // A ledge is solid only while the feet do not rise against it and were not below it, before either moved.
-        let feet = pose.position().y - 0.6;
         let is_solid = |key, body: &Collider2| {
             let top = body.pose().position().y + 0.25;
-            let carried = if stands_on == Some(lift) { rise } else { 0.0 };
             let own_rise = if key == lift { rise } else { 0.0 };
-            let was_above = feet - f64::from(carried) >= top - f64::from(own_rise);
+            let was_above = feet >= top - f64::from(own_rise);
             body.get_user_data() != ONE_WAY || fall <= own_rise && was_above
         };
         let filter = Filter2::new().only(&is_solid);
         let slide = world.move_and_slide((&hero, &pose), Vec2::new(0.32, fall), &walk, &filter);
         pose = slide.pose;
-        stands_on = slide.ground.map(|ground| ground.body);
+        footing = slide.ground.and_then(|ground| world.footing(&ground));
         trace.push(pose.position() - DVec2::Y * 0.6);
         fall = match slide.ground {
             Some(_) if frame == 20 => 0.6,

@@ -1,6 +1,7 @@
 //! Characters: what they never do (enter, pass through, tremble), and how a player expects them to behave on floors,
 //! stairs, slopes and along walls; in space and in the plane.
 
+mod carried;
 mod edges;
 mod freeing;
 mod orders;

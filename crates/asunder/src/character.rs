@@ -4,6 +4,7 @@
 //! free        moves a shape out of the solids that it overlaps, by as little as possible
 //! slide       free, then cast by cast: move, and turn the rest along obstacles; steps, and the ground below
 //! clip        the vector nearest to a given one that goes into no plane
+//! footing     what carries a character that stands on it
 //! plane, volume   vectors and the narrow phase, for both dimensions; the methods of both worlds
 //! ```
 //! Only `free` ever moves a shape to a place to which no cast led, and only if the shape overlapped a solid before. All
@@ -23,11 +24,14 @@
 //! shortest way if these planes describe all of the solids nearby, and corrected within a few rounds if they do not.
 
 mod clip;
+mod footing;
 mod free;
 mod gait;
 mod plane;
 mod slide;
 mod volume;
+
+pub use footing::{Footing, Footing2, Footing3};
 
 use crate::query::Asked;
 use crate::space::{BodyKey2, BodyKey3};
@@ -240,6 +244,8 @@ pub(crate) trait Walks: Asked<Point: Linear> {
     fn wide(vector: Self::Vector) -> Self::Point;
     fn narrow(vector: Self::Point) -> Self::Vector;
     fn position(pose: &Self::Pose) -> Self::Point;
+    /// A vector in world axes that turns with a body from one pose to another. The same bits if the rotation is kept.
+    fn turned_since(from: &Self::Pose, to: &Self::Pose, vector: Self::Point) -> Self::Point;
     /// The moved pose; `None` if it would leave the world.
     fn moved(pose: &Self::Pose, by: Self::Point) -> Option<Self::Pose>;
     /// Unit directions all around, in an order that never changes.

@@ -1,9 +1,10 @@
 //! Characters in the plane: vectors, the narrow phase, and the methods of [`World2`](crate::World2).
 
+use super::footing::{self, Footing2};
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks, is_along};
+use super::{Freed2, Gap, Linear, Obstacle2, Slide2, Walk2, Walks, is_along};
 use crate::collider::Collider2;
 use crate::query::{Asked, Filter2};
 use crate::space::Plane;
@@ -156,6 +157,44 @@ impl World<Plane> {
     ) -> Slide2 {
         move_and_slide(self, at, displacement, walk, filter)
     }
+
+    /// The place on a body on which a character stands, given the ground from its move: with it, the body carries the
+    /// character by [`carried`](World::carried). `None` if the body was removed. Cost: constant.
+    ///
+    /// ```
+    /// use asunder::{Obstacle2, World2};
+    /// let nobody = Obstacle2 { body: Default::default(), normal: Default::default(), point: Default::default(), part: 0 };
+    /// assert_eq!(World2::new().footing(&nobody), None);
+    /// ```
+    pub fn footing(&self, ground: &Obstacle2) -> Option<Footing2> {
+        footing::footing(self, ground)
+    }
+
+    /// Where a character is once what it stands on has moved: as far from its pose as the point under its foot went
+    /// since [`footing`](World::footing). To be called once per frame, after the bodies that carry characters have
+    /// moved, and before the character does; it may lead into a solid, which the next
+    /// [`move_and_slide`](World::move_and_slide) corrects.
+    ///
+    /// The rotation is kept. The pose is the same if the body has not moved, was removed or disabled, or would carry
+    /// the character out of range. Cost: constant.
+    ///
+    /// ```
+    /// use asunder::{Collider2, Obstacle2, Pose2, Rect, Rotation2, World2, glam::{DVec2, Vec2}};
+    /// let mut world = World2::new();
+    /// let wheel = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
+    /// let ground = Obstacle2 { body: wheel, normal: Vec2::Y, point: DVec2::new(1.0, 1.0), part: 0 };
+    /// let footing = world.footing(&ground).ok_or("the wheel is there")?;
+    /// world.set_pose(wheel, Pose2::new([0.0, 5.0], Rotation2::new(0.0, 1.0)?)?)?;
+    /// // The corner went from (1, 1) to (-1, 6): so does the foot.
+    /// let hero = Pose2::at([1.0, 2.0])?;
+    /// assert_eq!(world.carried(&footing, &hero), hero.shifted([-2.0, 5.0])?);
+    /// world.remove(wheel);
+    /// assert_eq!(world.carried(&footing, &hero), hero);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn carried(&self, footing: &Footing2, pose: &Pose2) -> Pose2 {
+        footing::carried(self, footing, pose)
+    }
 }
 
 impl Walks for Plane {
@@ -169,6 +208,10 @@ impl Walks for Plane {
 
     fn position(pose: &Pose2) -> DVec2 {
         pose.position()
+    }
+
+    fn turned_since(from: &Pose2, to: &Pose2, vector: DVec2) -> DVec2 {
+        if from.same_rotation(to) { vector } else { to.turn(from.turn_back(vector)) }
     }
 
     fn moved(pose: &Pose2, by: DVec2) -> Option<Pose2> {

@@ -91,7 +91,7 @@ struct Mover<'w, S: Walks> {
 ///
 /// ```text
 /// free the shape, or move it back to its skin's distance
-/// if it stands, begin along what it stands on                   (Mover::footing)
+/// if it stands, begin along what it stands on                   (Mover::bound_below)
 /// repeat                                                        at most SLIDES times
 ///   turn the rest of the way along all planes met               (Mover::way)
 ///   cast; move until the skin is reached                        (Mover::go)
@@ -197,7 +197,7 @@ impl<S: Walks> Mover<'_, S> {
         let mut left = displacement;
         // A standing character goes along the ground from the start: a way that leads down a little would meet the
         // ground too late to keep the skin.
-        let mut bounds: ArrayVec<Bound<S>, SLIDES> = ground.iter().map(|hit| self.footing(hit)).collect();
+        let mut bounds: ArrayVec<Bound<S>, SLIDES> = ground.iter().map(|hit| self.bound_below(hit)).collect();
         for _ in 0..SLIDES {
             let way = self.way(left, &bounds);
             if left.length() <= STANDSTILL * length || way.length() <= STANDSTILL * length {
@@ -347,7 +347,7 @@ impl<S: Walks> Mover<'_, S> {
 
     /// The bound that carries a standing character: the plane of a face, along which it moves up and down; on an edge,
     /// a level plane, so that it goes no further down.
-    fn footing(&self, hit: &Hit<S>) -> Bound<S> {
+    fn bound_below(&self, hit: &Hit<S>) -> Bound<S> {
         let Gait { up, skin, .. } = self.gait;
         let bound = self.bound(hit);
         let body = self.world.bodies.get(hit.body).filter(|_| bound.is_ground);

@@ -1,9 +1,10 @@
 //! Characters in space: vectors, the narrow phase, and the methods of [`World3`](crate::World3).
 
+use super::footing::{self, Footing3};
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks, is_along};
+use super::{Freed3, Gap, Linear, Obstacle3, Slide3, Walk3, Walks, is_along};
 use crate::collider::Collider3;
 use crate::query::{Asked, Filter3};
 use crate::space::Volume;
@@ -159,6 +160,45 @@ impl World<Volume> {
     ) -> Slide3 {
         move_and_slide(self, at, displacement, walk, filter)
     }
+
+    /// The place on a body on which a character stands, given the ground from its move: with it, the body carries the
+    /// character by [`carried`](World::carried). `None` if the body was removed. Cost: constant.
+    ///
+    /// ```
+    /// use asunder::{Obstacle3, World3};
+    /// let nobody = Obstacle3 { body: Default::default(), normal: Default::default(), point: Default::default(), part: 0 };
+    /// assert_eq!(World3::new().footing(&nobody), None);
+    /// ```
+    pub fn footing(&self, ground: &Obstacle3) -> Option<Footing3> {
+        footing::footing(self, ground)
+    }
+
+    /// Where a character is once what it stands on has moved: as far from its pose as the point under its foot went
+    /// since [`footing`](World::footing). To be called once per frame, after the bodies that carry characters have
+    /// moved, and before the character does; it may lead into a solid, which the next
+    /// [`move_and_slide`](World::move_and_slide) corrects.
+    ///
+    /// The rotation is kept. The pose is the same if the body has not moved, was removed or disabled, or would carry
+    /// the character out of range. Cost: constant.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Cuboid, Obstacle3, Pose3, World3, glam::{DVec3, Quat, Vec3}};
+    /// let mut world = World3::new();
+    /// let disc = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?));
+    /// let ground = Obstacle3 { body: disc, normal: Vec3::Y, point: DVec3::new(1.0, 1.0, 1.0), part: 0 };
+    /// let footing = world.footing(&ground).ok_or("the disc is there")?;
+    /// // A quarter turn about y.
+    /// world.set_pose(disc, Pose3::new([0.0, 5.0, 0.0], Quat::from_xyzw(0.0, 1.0, 0.0, 1.0))?)?;
+    /// // The corner went from (1, 1, 1) to (1, 6, -1): so does the foot.
+    /// let hero = Pose3::at([1.0, 2.0, 1.0])?;
+    /// assert_eq!(world.carried(&footing, &hero), hero.shifted([0.0, 5.0, -2.0])?);
+    /// world.remove(disc);
+    /// assert_eq!(world.carried(&footing, &hero), hero);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn carried(&self, footing: &Footing3, pose: &Pose3) -> Pose3 {
+        footing::carried(self, footing, pose)
+    }
 }
 
 impl Walks for Volume {
@@ -172,6 +212,10 @@ impl Walks for Volume {
 
     fn position(pose: &Pose3) -> DVec3 {
         pose.position()
+    }
+
+    fn turned_since(from: &Pose3, to: &Pose3, vector: DVec3) -> DVec3 {
+        if from.same_rotation(to) { vector } else { to.turn_since(from).turn(vector) }
     }
 
     fn moved(pose: &Pose3, by: DVec3) -> Option<Pose3> {
