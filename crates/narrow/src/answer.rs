@@ -31,8 +31,7 @@ pub enum Answer {
 /// Which tier of precision settled whether two shapes overlap.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Pair3, Tier};
+/// use asunder::{Cuboid, Pair3, Pose3, Shape3, Tier, glam::Vec3};
 /// let brick = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 0.05, 0.2))?);
 /// let (here, next) = (Pose3::IDENTITY, Pose3::at([0.3, 0.0, 0.0])?);
 /// assert_eq!(Pair3::new(&brick, &here, &brick, &next).verdict().tier, Tier::Bound);
@@ -57,8 +56,7 @@ pub enum Tier {
 /// Whether two shapes overlap, and how that was settled.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Pair3, Tier, Verdict};
+/// use asunder::{Cuboid, Pair3, Pose3, Shape3, Tier, Verdict, glam::Vec3};
 /// let unit = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let (here, beside) = (Pose3::IDENTITY, Pose3::at([2.0, 0.0, 0.0])?);
 /// let Verdict { overlapping, tier } = Pair3::new(&unit, &here, &unit, &beside).verdict();
@@ -77,8 +75,7 @@ pub struct Verdict {
 /// A separation in the plane, or a bound on it.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2};
-/// use asunder_narrow::{Measured2, Pair2, Separation2};
+/// use asunder::{Circle, Measured2, Pair2, Pose2, Separation2, Shape2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
 /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -102,8 +99,7 @@ impl Separation2 {
     /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
-    /// use asunder_geometry::{Circle, Pose2, Shape2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Circle, Pair2, Pose2, Shape2};
     /// let ball = Shape2::from(Circle::new(1.0)?);
     /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
     /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -123,8 +119,7 @@ impl Separation2 {
 /// A separation in space, or a bound on it.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere};
-/// use asunder_narrow::{Measured3, Pair3, Separation3};
+/// use asunder::{Measured3, Pair3, Pose3, Separation3, Shape3, Sphere};
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
 /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -148,8 +143,7 @@ impl Separation3 {
     /// The measured separation; `None` beyond the caller's limit.
     ///
     /// ```
-    /// use asunder_geometry::{Sphere, Pose3, Shape3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Pair3, Pose3, Shape3, Sphere};
     /// let ball = Shape3::from(Sphere::new(1.0)?);
     /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
     /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -169,8 +163,7 @@ impl Separation3 {
 /// A separation in the plane and the axis that shows it.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::{Measured2, Pair2, Separation2};
+/// use asunder::{Circle, Measured2, Pair2, Pose2, Separation2, Shape2, glam::Vec2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
 /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -195,8 +188,7 @@ pub struct Measured2 {
 /// A separation in space and the axis that shows it.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
-/// use asunder_narrow::{Measured3, Pair3, Separation3};
+/// use asunder::{Measured3, Pair3, Pose3, Separation3, Shape3, Sphere, glam::Vec3};
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
 /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -221,8 +213,7 @@ pub struct Measured3 {
 /// Closest points of two shapes in the plane that do not overlap.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::{Closest2, Pair2};
+/// use asunder::{Circle, Closest2, Pair2, Pose2, Shape2, glam::Vec2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
 /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -252,8 +243,7 @@ pub struct Closest2 {
 /// Closest points of two shapes in space that do not overlap.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
-/// use asunder_narrow::{Closest3, Pair3};
+/// use asunder::{Closest3, Pair3, Pose3, Shape3, Sphere, glam::Vec3};
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
 /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -283,8 +273,7 @@ pub struct Closest3 {
 /// One point of a manifold in the plane.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2};
-/// use asunder_narrow::{ContactPoint2, Pair2};
+/// use asunder::{Circle, ContactPoint2, Pair2, Pose2, Shape2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
 /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -318,8 +307,7 @@ pub struct ContactPoint2 {
 /// all of them.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere};
-/// use asunder_narrow::{ContactPoint3, Pair3};
+/// use asunder::{ContactPoint3, Pair3, Pose3, Shape3, Sphere};
 /// let ball = Shape3::from(Sphere::new(1.0)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
 /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -355,8 +343,7 @@ pub struct ContactPoint3 {
 /// whether the shapes overlap, but not how far they have to move to be free of each other.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
-/// use asunder_narrow::{Manifold2, Pair2};
+/// use asunder::{Manifold2, Pair2, Pose2, Rect, Shape2, glam::Vec2};
 /// let block = Shape2::from(Rect::from_half_extents(Vec2::new(1.0, 0.5))?);
 /// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.75])?);
 /// let manifold: Manifold2 = Pair2::new(&block, &here, &block, &above).manifold(0.0).ok_or("they overlap")?;
@@ -389,8 +376,7 @@ pub struct Manifold2 {
 /// On ground, the part is the lowest triangle of the plane that is touched, or of those planes that share the normal.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Manifold3, Pair3};
+/// use asunder::{Cuboid, Manifold3, Pair3, Pose3, Shape3, glam::Vec3};
 /// let block = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 0.5, 1.0))?);
 /// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 0.75, 0.0])?);
 /// let manifold: Manifold3 = Pair3::new(&block, &here, &block, &above).manifold(0.0).ok_or("they overlap")?;

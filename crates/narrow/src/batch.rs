@@ -19,8 +19,21 @@ pub type Batch2 = Batch<Manifold2>;
 /// Answers in space.
 pub type Batch3 = Batch<Manifold3>;
 
-/// Whether two shapes within the margin overlap; or, for others, a lower bound in metres on how far they are beyond it.
-pub(crate) type Met = Result<bool, f32>;
+/// How two shapes of a job are to each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Proximity {
+    /// Within the margin.
+    Within { overlapping: bool },
+    /// Beyond it, by at least that many metres.
+    Beyond(f32),
+}
+
+impl Proximity {
+    /// Whether they overlap, of shapes within the margin; nothing is known of others.
+    pub(crate) fn of(found: Option<bool>) -> Self {
+        found.map_or(Self::Beyond(0.0), |overlapping| Self::Within { overlapping })
+    }
+}
 
 /// By how much shapes at least `at_least` apart are beyond the reach of a contact, in metres: a lower bound.
 #[inline]
@@ -43,11 +56,11 @@ impl<M> Batch<M> {
         self.manifolds.clear();
     }
 
-    /// Appends an answer; for shapes that met, with the manifolds from `first` on.
-    pub(crate) fn push(&mut self, hint: Hint, met: Met, first: u32) {
-        self.answers.push(match met {
-            Err(beyond) => Answer::Apart { hint, beyond },
-            Ok(overlapping) => {
+    /// Appends an answer; for shapes within the margin, with the manifolds from `first` on.
+    pub(crate) fn push(&mut self, hint: Hint, proximity: Proximity, first: u32) {
+        self.answers.push(match proximity {
+            Proximity::Beyond(beyond) => Answer::Apart { hint, beyond },
+            Proximity::Within { overlapping } => {
                 Answer::Contact { hint, overlapping, manifolds: first..self.manifolds.len() as u32 }
             }
         });

@@ -95,8 +95,7 @@ impl Pair2<'_> {
     /// for shapes that nearly touch at the start.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Pair2, Pose2, Rect, Shape2, glam::Vec2};
     /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
     /// let (here, there) = (Pose2::IDENTITY, Pose2::at([10.0, 0.5])?);
     /// let pair = Pair2::new(&square, &here, &square, &there);
@@ -125,8 +124,7 @@ impl Pair2<'_> {
     /// tried.
     ///
     /// ```
-    /// use asunder_geometry::{Circle, Motion2, Pose2, Rect, Rotation2, Shape2, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Circle, Motion2, Pair2, Pose2, Rect, Rotation2, Shape2, glam::Vec2};
     /// let rod = Shape2::from(Rect::from_half_extents(Vec2::new(2.0, 0.01))?);
     /// let post = Shape2::from(Circle::new(0.1)?);
     /// let at = Pose2::at([0.0, 1.5])?;
@@ -164,8 +162,7 @@ impl Pair2<'_> {
     /// Cost: as the impact, which is tested first; for bodies that touch, their manifolds too, and another search.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, Circle, Motion2, Pose2, Shape2, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Chain, Circle, Motion2, Pair2, Pose2, Shape2, glam::Vec2};
     /// let points = [[-9.0, 0.0], [0.0, 0.0], [5.0, 0.0], [5.0, 4.0]].map(Vec2::from);
     /// let yard = Shape2::from(Chain::open(points)?);
     /// let (ball, on_floor) = (Shape2::from(Circle::new(0.5)?), Pose2::at([-2.0, 0.5])?);
@@ -195,8 +192,7 @@ impl Pair2<'_> {
     /// Cost: as the next impact; where there is one, another search.
     ///
     /// ```
-    /// use asunder_geometry::{Motion2, Pose2, Rect, Shape2, glam::Vec2};
-    /// use asunder_narrow::{Touch2, Pair2};
+    /// use asunder::{Motion2, Pair2, Pose2, Rect, Shape2, Touch2, glam::Vec2};
     /// let (crate_, tile) = (Rect::from_half_extents(Vec2::splat(0.5))?, Rect::from_half_extents(Vec2::ONE)?);
     /// let (crate_, tile) = (Shape2::from(crate_), Shape2::from(tile));
     /// // A millimetre in a tile whose top is at height 0, and 0.5 m before the next.
@@ -205,7 +201,7 @@ impl Pair2<'_> {
     /// let meets = |height: f64| {
     ///     let next = Pose2::at([2.0, height - 1.0])?;
     ///     let pair = Pair2::new(&crate_, &from, &tile, &next);
-    ///     Ok::<_, asunder_geometry::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion2::STILL).is_some())
+    ///     Ok::<_, asunder::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion2::STILL).is_some())
     /// };
     /// // As high as the one that it stands on, a little higher, and too high.
     /// assert_eq!([meets(0.0)?, meets(0.005)?, meets(0.02)?], [false, false, true]);

@@ -83,8 +83,7 @@ impl Pair3<'_> {
     /// one on whose inside the part comes down; for ground that turns, and for half-spaces, for every triangle.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Cuboid, Pair3, Pose3, Shape3, glam::Vec3};
     /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?);
     /// let (here, there) = (Pose3::IDENTITY, Pose3::at([5.0, 0.25, 0.0])?);
     /// let pair = Pair3::new(&cube, &here, &cube, &there);
@@ -124,8 +123,7 @@ impl Pair3<'_> {
     /// every pair of parts whose bounding spheres meet on the way.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Cuboid, Motion3, Pair3, Pose3, Shape3, Sphere, glam::{Quat, Vec3}};
     /// let rod = Shape3::from(Cuboid::from_half_extents(Vec3::new(2.0, 0.1, 0.1))?);
     /// let ball = Shape3::from(Sphere::new(0.2)?);
     /// let (here, beside) = (Pose3::IDENTITY, Pose3::at([0.0, 1.5, 0.0])?);
@@ -167,8 +165,7 @@ impl Pair3<'_> {
     /// Cost: that of the impact, which is tested first; for bodies that touch, also their manifolds and another search.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Compound3, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Compound3, Cuboid, Motion3, Pair3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let slab = Shape3::from(Cuboid::from_half_extents(Vec3::new(9.0, 1.0, 9.0))?);
     /// let wall = Shape3::from(Cuboid::from_half_extents(Vec3::new(0.1, 4.0, 9.0))?);
     /// let yard: Shape3 =
@@ -200,8 +197,7 @@ impl Pair3<'_> {
     /// Cost: as the next impact; where there is one, another search.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, Sphere, glam::Vec3};
-    /// use asunder_narrow::{Touch3, Pair3};
+    /// use asunder::{Cuboid, Motion3, Pair3, Pose3, Shape3, Sphere, Touch3, glam::Vec3};
     /// let (ball, tile) = (Shape3::from(Sphere::new(0.5)?), Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?));
     /// // A millimetre in a tile whose top is at height 0, and 1 m before the next.
     /// let (from, way) = (Pose3::at([0.0, 0.499, 0.0])?, Motion3::shift([3.0, 0.0, 0.0])?);
@@ -209,7 +205,7 @@ impl Pair3<'_> {
     /// let meets = |height: f64| {
     ///     let next = Pose3::at([2.0, height - 1.0, 0.0])?;
     ///     let pair = Pair3::new(&ball, &from, &tile, &next);
-    ///     Ok::<_, asunder_geometry::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion3::STILL).is_some())
+    ///     Ok::<_, asunder::PoseError>(pair.next_impact_beside(&[stands], &way, &Motion3::STILL).is_some())
     /// };
     /// // As high as the one that it stands on, a little higher, and too high.
     /// assert_eq!([meets(0.0)?, meets(0.005)?, meets(0.02)?], [false, false, true]);

@@ -12,8 +12,7 @@ use asunder_geometry::glam::{DVec3, Vec3};
 ///   half-edges, of which triangle `t` has `3 t` to `3 t + 2`.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
-/// use asunder_narrow::{Feature, Pair2};
+/// use asunder::{Feature, Pair2, Pose2, Rect, Shape2, glam::Vec2};
 /// let block = Shape2::from(Rect::from_half_extents(Vec2::new(1.0, 0.5))?);
 /// let small = Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.5))?);
 /// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.875])?);
@@ -61,7 +60,7 @@ impl Feature {
 /// Equal features have equal ids, whichever kernel found them and whichever shape was the reference.
 ///
 /// ```
-/// use asunder_narrow::{Feature, FeatureId};
+/// use asunder::{Feature, FeatureId};
 /// let id = FeatureId::new(Feature::Face(3), Feature::Vertex(7));
 /// assert_eq!((id.a(), id.b()), (Feature::Face(3), Feature::Vertex(7)));
 /// assert_eq!(FeatureId::from_bits(id.to_bits()), id);

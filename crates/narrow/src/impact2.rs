@@ -5,8 +5,7 @@ use asunder_geometry::glam::Vec2;
 /// When and where a moved shape in the plane first touches another.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::Pair2;
+/// use asunder::{Circle, Pair2, Pose2, Shape2, glam::Vec2};
 /// let ball = Shape2::from(Circle::new(0.5)?);
 /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
 /// let impact = Pair2::new(&ball, &here, &ball, &there).cast(Vec2::X * 4.0).ok_or("they meet")?;
@@ -40,8 +39,7 @@ pub struct Impact2 {
 /// Where a ray in the plane enters a shape.
 ///
 /// ```
-/// use asunder_geometry::{Pose2, Ray2, Rect, Shape2, glam::Vec2};
-/// use asunder_narrow::cast_ray2;
+/// use asunder::{Pose2, Ray2, Rect, Shape2, cast_ray2, glam::Vec2};
 /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
 /// let within = Ray2::new([0.5, 0.0], Vec2::X)?;
 /// let hit = cast_ray2(&square, &Pose2::IDENTITY, &within, 10.0).ok_or("it starts inside")?;

@@ -5,8 +5,7 @@ use asunder_geometry::glam::Vec3;
 /// When and where a moved shape in space first touches another.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Shape3, Sphere, glam::Vec3};
-/// use asunder_narrow::Pair3;
+/// use asunder::{Pair3, Pose3, Shape3, Sphere, glam::Vec3};
 /// let ball = Shape3::from(Sphere::new(0.5)?);
 /// let (here, there) = (Pose3::IDENTITY, Pose3::at([5.0, 0.0, 0.0])?);
 /// let impact = Pair3::new(&ball, &here, &ball, &there).cast(Vec3::X * 8.0).ok_or("it flies into the other")?;
@@ -41,8 +40,7 @@ pub struct Impact3 {
 /// Where a ray in space first meets a shape.
 ///
 /// ```
-/// use asunder_geometry::{Pose3, Ray3, Shape3, Sphere, glam::Vec3};
-/// use asunder_narrow::cast_ray3;
+/// use asunder::{Pose3, Ray3, Shape3, Sphere, cast_ray3, glam::Vec3};
 /// let ball = Shape3::from(Sphere::new(0.5)?);
 /// let ray = Ray3::new([-2.0, 0.0, 0.0], Vec3::X * 3.0)?;
 /// let hit = cast_ray3(&ball, &Pose3::IDENTITY, &ray, f64::INFINITY).ok_or("it points at the ball")?;

@@ -1,6 +1,6 @@
 //! Batches of pairs in the plane.
 
-use crate::batch::Batch2;
+use crate::batch::{Batch2, Proximity};
 use crate::feature::Hint;
 use crate::pair2::Pair2;
 use asunder_geometry::{Pose2, Shape2};
@@ -49,15 +49,15 @@ pub fn collide2(jobs: &[Job2<'_>], batch: &mut Batch2) {
         let pair = Pair2::new(job.shape_a, job.pose_a, job.shape_b, job.pose_b);
         let first = batch.manifolds.len() as u32;
         let manifolds = &mut batch.manifolds;
-        let (hint, met) = if pair.has_ground() {
+        let (hint, proximity) = if pair.has_ground() {
             let overlapping = pair.contact_on_ground([job.margin, job.ahead], manifolds);
             if job.sensor {
                 manifolds.truncate(first as usize);
             }
-            (Hint::NONE, overlapping.ok_or(0.0))
+            (Hint::NONE, Proximity::of(overlapping))
         } else {
             pair.contact(job.margin, job.hint, !job.sensor, |manifold| manifolds.push(manifold))
         };
-        batch.push(hint, met, first);
+        batch.push(hint, proximity, first);
     }
 }

@@ -10,9 +10,9 @@
 //! and takes 2 % longer: the data handed from stage to stage costs as much (AMD EPYC, Zen 4, 2026-11-23).
 
 use crate::answer::Separation3;
-use crate::batch::Batch3;
+use crate::batch::{Batch3, Proximity};
 use crate::feature::Hint;
-use crate::ground3::contact_on_ground;
+use crate::ground3::OnGround;
 use crate::pair3::{Pair3, limit_of, reach_of};
 use crate::polyhedron::cuboids::eight::{Eight, LANES};
 use crate::polyhedron::cuboids::placed::Posed;
@@ -74,7 +74,7 @@ pub fn collide3(jobs: &[Job3<'_>], batch: &mut Batch3) {
         for (job, way) in now.iter().zip(&run.ways) {
             match run.lane(*way) {
                 Some(lane) => job.answer_from(lane, batch),
-                None if let Way::Far(beyond) = *way => batch.push(job.hint, Err(beyond), 0),
+                None if let Way::Far(beyond) = *way => batch.push(job.hint, Proximity::Beyond(beyond), 0),
                 None => job.answer(batch),
             }
         }
@@ -197,12 +197,13 @@ impl<'a> Job3<'a> {
         let pair = self.pair();
         // Only on ground does it matter what the margin is for.
         if self.ahead > 0.0
-            && let Some(found) = contact_on_ground(&pair, [self.margin, self.ahead], &mut wanted)
+            && let Some(on) = OnGround::of(&pair)
         {
-            return batch.push(Hint::NONE, found.ok_or(0.0), first);
+            let found = pair.contact_on(&on, [self.margin, self.ahead], &mut wanted);
+            return batch.push(Hint::NONE, Proximity::of(found), first);
         }
-        let (hint, met) = pair.contact(self.margin, self.hint, wanted);
-        batch.push(hint, met, first);
+        let (hint, proximity) = pair.contact(self.margin, self.hint, wanted);
+        batch.push(hint, proximity, first);
     }
 
     /// Two cuboids, answered from one of eight lanes.
@@ -218,13 +219,13 @@ impl<'a> Job3<'a> {
             }),
         };
         match contact {
-            Contact::Apart(hint, beyond) => batch.push(hint, Err(beyond), first),
-            Contact::Touching(hint) => batch.push(hint, Ok(true), first),
-            Contact::Near(hint) => batch.push(hint, Ok(false), first),
+            Contact::Apart(hint, beyond) => batch.push(hint, Proximity::Beyond(beyond), first),
+            Contact::Touching(hint) => batch.push(hint, Proximity::Within { overlapping: true }, first),
+            Contact::Near(hint) => batch.push(hint, Proximity::Within { overlapping: false }, first),
             Contact::Unclear(hint) => {
                 let mut wanted = (!self.sensor).then_some(&mut batch.manifolds);
-                let (hint, met) = self.pair().general_contact(self.margin, hint, &mut wanted);
-                batch.push(hint, met, first);
+                let (hint, proximity) = self.pair().general_contact(self.margin, hint, &mut wanted);
+                batch.push(hint, proximity, first);
             }
         }
     }

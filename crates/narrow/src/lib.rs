@@ -35,8 +35,7 @@
 //! [`Persistent2`] or [`Persistent3`] moves the last frame's manifold along, for a fraction of the cost of a new one.
 //!
 //! ```
-//! use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-//! use asunder_narrow::{Pair3, Separation3};
+//! use asunder::{Cuboid, Pair3, Pose3, Separation3, Shape3, glam::Vec3};
 //!
 //! let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 //! let (here, there) = (Pose3::IDENTITY, Pose3::at(Vec3::new(1.75, 0.0, 0.0))?);

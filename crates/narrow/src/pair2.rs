@@ -7,7 +7,7 @@ mod nearest;
 mod part;
 
 use crate::answer::{ContactPoint2, Manifold2, Measured2, Separation2, Tier, Verdict};
-use crate::batch::{Met, beyond};
+use crate::batch::{Proximity, beyond};
 use crate::feature::Hint;
 use crate::least::Least;
 use crate::lists::with_manifolds2;
@@ -38,8 +38,7 @@ use part::{Part, for_parts, for_parts_in, for_parts_near};
 /// are subtracted. A segment has two edges, back to back.
 ///
 /// ```
-/// use asunder_geometry::{Rect, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::Pair2;
+/// use asunder::{Pair2, Pose2, Rect, Shape2, glam::Vec2};
 /// let square = Shape2::from(Rect::from_half_extents(Vec2::splat(0.5))?);
 /// let (left, right) = (Pose2::at([1e9 - 2.0, 0.0])?, Pose2::at([1e9, 0.0])?);
 /// let closest = Pair2::new(&square, &left, &square, &right).distance().ok_or("they are apart")?;
@@ -116,8 +115,7 @@ impl<'a> Pair2<'a> {
     /// other from all sides. Exact.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, Circle, Pose2, Shape2, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Chain, Circle, Pair2, Pose2, Shape2, glam::Vec2};
     /// let floor = Shape2::from(Chain::open([Vec2::X, Vec2::NEG_X])?.one_sided());
     /// let (ball, here) = (Shape2::from(Circle::new(0.5)?), Pose2::IDENTITY);
     /// let (above, below) = (Pose2::at([0.0, 0.25])?, Pose2::at([0.0, -0.25])?);
@@ -138,8 +136,7 @@ impl<'a> Pair2<'a> {
     /// Like [`overlaps`](Self::overlaps), with the tier of precision that settled it.
     ///
     /// ```
-    /// use asunder_geometry::{Pose2, Rect, Shape2, glam::Vec2};
-    /// use asunder_narrow::{Pair2, Tier};
+    /// use asunder::{Pair2, Pose2, Rect, Shape2, Tier, glam::Vec2};
     /// let square = Shape2::from(Rect::from_half_extents(Vec2::ONE)?);
     /// let next = Pose2::at([2.0, 0.0])?;
     /// let touching = Pair2::new(&square, &Pose2::IDENTITY, &square, &next).verdict();
@@ -167,8 +164,7 @@ impl<'a> Pair2<'a> {
     /// It is meant for measurements: the difference in time to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
-    /// use asunder_geometry::{Circle, Pose2, Shape2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Circle, Pair2, Pose2, Shape2};
     /// let ball = Shape2::from(Circle::new(1.0)?);
     /// let (here, there) = (Pose2::IDENTITY, Pose2::at([3.0, 0.0])?);
     /// let pair = Pair2::new(&ball, &here, &ball, &there);
@@ -237,8 +233,7 @@ impl<'a> Pair2<'a> {
     /// runs and corners that it touches; none for two chains.
     ///
     /// ```
-    /// use asunder_geometry::{Compound2, HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Circle, Compound2, HalfPlane, Pair2, Pose2, Shape2, glam::Vec2};
     /// let ball = Shape2::from(Circle::new(0.5)?);
     /// let dumbbell: Shape2 =
     ///     Compound2::new([(Pose2::at(Vec2::X)?, ball.clone()), (Pose2::at(Vec2::NEG_X)?, ball)])?.into();
@@ -267,8 +262,7 @@ impl<'a> Pair2<'a> {
     /// per thread.
     ///
     /// ```
-    /// use asunder_geometry::{HalfPlane, Pose2, Shape2, Circle, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Circle, HalfPlane, Pair2, Pose2, Shape2, glam::Vec2};
     /// let (ball, floor) = (Shape2::from(Circle::new(0.5)?), Shape2::from(HalfPlane::new(Vec2::Y)?));
     /// let (here, above) = (Pose2::IDENTITY, Pose2::at([0.0, 0.5])?);
     /// let mut deepest = f32::INFINITY;
@@ -281,14 +275,14 @@ impl<'a> Pair2<'a> {
         with_manifolds2(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
-    /// Returns the hint for the next frame, and how they met. Passes manifolds to `keep` if they are wanted.
+    /// Returns the hint for the next frame, and how near they are. Passes manifolds to `keep` if they are wanted.
     pub(crate) fn contact(
         &self,
         margin: f32,
         hint: Hint,
         is_wanted: bool,
         mut keep: impl FnMut(Manifold2),
-    ) -> (Hint, Met) {
+    ) -> (Hint, Proximity) {
         let margin = margin.max(0.0);
         // What rounds to the margin counts as within it: the reported number decides.
         let reach = f64::from(margin.next_up());
@@ -297,14 +291,17 @@ impl<'a> Pair2<'a> {
         match self.bodies().answer(&query) {
             Some(Probe::Near(near)) => {
                 if !is_near(&near) {
-                    return (near.hint, Err(0.0));
+                    return (near.hint, Proximity::Beyond(0.0));
                 }
                 if let Some(touch) = &near.touch {
                     keep(manifold(&near, touch, ([0, 0], [DVec2::ZERO, -self.between])));
                 }
-                return (near.hint, Ok(near.verdict.overlapping));
+                let overlapping = near.verdict.overlapping;
+                return (near.hint, Proximity::Within { overlapping });
             }
-            Some(Probe::Beyond(at_least, hint)) => return (hint, Err(beyond(at_least.into(), reach))),
+            Some(Probe::Beyond(at_least, hint)) => {
+                return (hint, Proximity::Beyond(beyond(at_least.into(), reach)));
+            }
             None => {}
         }
         if self.is_compound() {
@@ -312,7 +309,7 @@ impl<'a> Pair2<'a> {
         }
         let [a, b] = [Part::whole(self.shape_a, &self.turn_a), Part::whole(self.shape_b, &self.turn_b)];
         let (hint, found) = self.parts(a, b).contact(&query, margin, &mut keep);
-        (hint, found.map(|found| found.0))
+        (hint, found.map_or_else(Proximity::Beyond, |(overlapping, _)| Proximity::Within { overlapping }))
     }
 
     /// The pair of parts with the least separation, or a bound if all are beyond the limit.

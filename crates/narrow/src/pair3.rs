@@ -14,9 +14,9 @@ mod parts;
 mod rods;
 
 use crate::answer::{Closest3, Manifold3, Measured3, Separation3, Tier, Verdict};
-use crate::batch::{Met, beyond};
+use crate::batch::{Proximity, beyond};
 use crate::feature::Hint;
-use crate::ground3::{OnGround, contact_on_ground};
+use crate::ground3::OnGround;
 use crate::least::Least;
 use crate::lists::with_manifolds3;
 use crate::polyhedron::convex::{IDENTITY, Near, Probe, Query, Wanted};
@@ -50,8 +50,7 @@ pub(crate) use parts::Parts;
 /// are subtracted. Triangles and flat hulls have two faces, back to back.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::Pair3;
+/// use asunder::{Cuboid, Pair3, Pose3, Shape3, glam::Vec3};
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5))?);
 /// let (left, right) = (Pose3::at([1e9 - 2.0, 0.0, 0.0])?, Pose3::at([1e9, 0.0, 0.0])?);
 /// let closest = Pair3::new(&cube, &left, &cube, &right).distance().ok_or("they are apart")?;
@@ -110,8 +109,7 @@ impl<'a> Pair3<'a> {
     /// each other from all sides. Exact.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, Shape3, Sphere, TriMesh, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Pair3, Pose3, Shape3, Sphere, TriMesh, glam::Vec3};
     /// let floor = TriMesh::new([Vec3::ZERO, Vec3::Z, Vec3::X], [[0, 1, 2]])?;
     /// let (floor, here) = (Shape3::from(floor.one_sided()), Pose3::IDENTITY);
     /// let ball = Shape3::from(Sphere::new(0.5)?);
@@ -126,7 +124,7 @@ impl<'a> Pair3<'a> {
             // For a centre that is in the plane of a front up to rounding, contacts and casts round that plane
             // differently and may disagree. This agrees with contacts.
             Some(on) if on.ground.is_one_sided() && !on.body.is_ground() => {
-                self.contact(0.0, Hint::NONE, None).1 == Ok(true)
+                self.contact(0.0, Hint::NONE, None).1 == Proximity::Within { overlapping: true }
             }
             _ => self.overlaps(),
         }
@@ -135,8 +133,7 @@ impl<'a> Pair3<'a> {
     /// Like [`overlaps`](Self::overlaps), with the tier of precision that settled it.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::{Quat, Vec3}};
-    /// use asunder_narrow::{Pair3, Tier};
+    /// use asunder::{Cuboid, Pair3, Pose3, Shape3, Tier, glam::{Quat, Vec3}};
     /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
     /// let tilted = Quat::from_xyzw(1.0, 2.0, 3.0, 4.0);
     /// let (here, there) = (Pose3::new(Vec3::ZERO, tilted)?, Pose3::new(Vec3::new(2.0, 0.0, 0.0), tilted)?);
@@ -178,8 +175,7 @@ impl<'a> Pair3<'a> {
     /// It is meant for measurements: the difference in time to [`overlaps`](Self::overlaps) is the cost of certainty.
     ///
     /// ```
-    /// use asunder_geometry::{Pose3, Shape3, Sphere};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Pair3, Pose3, Shape3, Sphere};
     /// let ball = Shape3::from(Sphere::new(1.0)?);
     /// let (here, there) = (Pose3::IDENTITY, Pose3::at([3.0, 0.0, 0.0])?);
     /// let pair = Pair3::new(&ball, &here, &ball, &there);
@@ -282,8 +278,7 @@ impl<'a> Pair3<'a> {
     /// unless a shape is a compound.
     ///
     /// ```
-    /// use asunder_geometry::{Compound3, HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Compound3, HalfSpace, Pair3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let ball = Shape3::from(Sphere::new(0.5)?);
     /// let dumbbell: Shape3 =
     ///     Compound3::new([(Pose3::at(Vec3::X)?, ball.clone()), (Pose3::at(Vec3::NEG_X)?, ball)])?.into();
@@ -304,8 +299,7 @@ impl<'a> Pair3<'a> {
     /// per thread.
     ///
     /// ```
-    /// use asunder_geometry::{HalfSpace, Pose3, Shape3, Sphere, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{HalfSpace, Pair3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let (ball, floor) = (Shape3::from(Sphere::new(0.5)?), Shape3::from(HalfSpace::new(Vec3::Y)?));
     /// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 0.5, 0.0])?);
     /// let mut deepest = f32::INFINITY;
@@ -318,14 +312,14 @@ impl<'a> Pair3<'a> {
         with_manifolds3(self, margin, |manifolds| manifolds.iter().for_each(visitor));
     }
 
-    /// Returns the hint for the next frame, and how they met. Adds manifolds to the list if there is one.
+    /// Returns the hint for the next frame, and how near they are. Adds manifolds to the list if there is one.
     #[inline]
     pub(crate) fn contact(
         &self,
         margin: f32,
         hint: Hint,
         mut manifolds: Option<&mut Vec<Manifold3>>,
-    ) -> (Hint, Met) {
+    ) -> (Hint, Proximity) {
         let Some(cuboids) = self.cuboids() else {
             return self.general_contact(margin, hint, &mut manifolds);
         };
@@ -335,24 +329,29 @@ impl<'a> Pair3<'a> {
             Some(manifolds) => in_place(manifolds, |manifold| cuboids.contact(reach, hint, manifold)),
         };
         match contact {
-            Contact::Apart(hint, beyond) => (hint, Err(beyond)),
-            Contact::Touching(hint) => (hint, Ok(true)),
-            Contact::Near(hint) => (hint, Ok(false)),
+            Contact::Apart(hint, beyond) => (hint, Proximity::Beyond(beyond)),
+            Contact::Touching(hint) => (hint, Proximity::Within { overlapping: true }),
+            Contact::Near(hint) => (hint, Proximity::Within { overlapping: false }),
             Contact::Unclear(hint) => self.general_contact(margin, hint, &mut manifolds),
         }
     }
 
-    pub(crate) fn general_contact(&self, margin: f32, hint: Hint, manifolds: &mut impl Room) -> (Hint, Met) {
+    pub(crate) fn general_contact(
+        &self,
+        margin: f32,
+        hint: Hint,
+        manifolds: &mut impl Room,
+    ) -> (Hint, Proximity) {
         if let Some(found) = self.contact_in_closed_form(margin, manifolds) {
             return (Hint::NONE, found);
         }
-        if let Some(found) = contact_on_ground(self, [margin, 0.0], manifolds) {
-            return (Hint::NONE, found.ok_or(0.0));
+        if let Some(on) = OnGround::of(self) {
+            return (Hint::NONE, Proximity::of(self.contact_on(&on, [margin, 0.0], manifolds)));
         }
         let (margin, reach) = (margin.max(0.0), reach_of(margin));
         let gap = self.gap_of_spheres();
         if gap > reach {
-            return (hint, Err(beyond(gap, reach)));
+            return (hint, Proximity::Beyond(beyond(gap, reach)));
         }
         let wanted = if manifolds.is_wanted() { Wanted::Points } else { Wanted::Number };
         let query = Query { limit: reach, hint, wanted };
@@ -360,7 +359,11 @@ impl<'a> Pair3<'a> {
             return self.contact_of_parts(query, margin, manifolds);
         }
         let (hint, found) = self.wholes().contact(query, margin, manifolds);
-        (hint, found.map(|found| found.overlapping))
+        (
+            hint,
+            found
+                .map_or_else(Proximity::Beyond, |found| Proximity::Within { overlapping: found.overlapping }),
+        )
     }
 
     /// Applies `report` to the pair of parts with the least separation, or returns a bound if all are beyond the limit.

@@ -12,8 +12,7 @@ use core::ops::{Deref, DerefMut};
 /// of them once more, a twenty-fifth of a frame of boxes or pyramids (AMD EPYC, Zen 4, 2026-11-23).
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{ContactPoint3, ContactPoints, Pair3};
+/// use asunder::{ContactPoint3, ContactPoints, Cuboid, Pair3, Pose3, Shape3, glam::Vec3};
 /// let cube = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let (here, above) = (Pose3::IDENTITY, Pose3::at([0.0, 1.5, 0.0])?);
 /// let manifold = Pair3::new(&cube, &here, &cube, &above).manifold(0.0).ok_or("they touch")?;
@@ -52,7 +51,7 @@ impl<P: Blank, const N: usize> ContactPoints<P, N> {
     /// An empty list.
     ///
     /// ```
-    /// use asunder_narrow::{ContactPoint3, ContactPoints};
+    /// use asunder::{ContactPoint3, ContactPoints};
     /// assert!(ContactPoints::<ContactPoint3, 4>::new().is_empty());
     /// ```
     pub const fn new() -> Self {
@@ -64,8 +63,7 @@ impl<P: Copy, const N: usize> ContactPoints<P, N> {
     /// Adds a point at the end if there is room, and returns whether there was.
     ///
     /// ```
-    /// use asunder_narrow::{ContactPoint2, ContactPoints, Feature, FeatureId};
-    /// use asunder_geometry::glam::Vec2;
+    /// use asunder::{ContactPoint2, ContactPoints, Feature, FeatureId, glam::Vec2};
     /// let feature = FeatureId::new(Feature::Vertex(0), Feature::Edge(1));
     /// let point = ContactPoint2 { separation: 0.0, anchor_a: Vec2::X, anchor_b: Vec2::X, feature };
     /// let mut points = ContactPoints::<ContactPoint2, 2>::new();

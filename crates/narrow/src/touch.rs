@@ -11,8 +11,7 @@ use asunder_geometry::glam::{DVec2, DVec3, Vec2, Vec3};
 /// the next tile.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Motion3, Pose3, Shape3, glam::Vec3};
-/// use asunder_narrow::{Touch3, Pair3};
+/// use asunder::{Cuboid, Motion3, Pair3, Pose3, Shape3, Touch3, glam::Vec3};
 /// let tile = Shape3::from(Cuboid::from_half_extents(Vec3::new(1.0, 0.5, 1.0))?);
 /// let crate_ = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.4))?);
 /// // It is a millimetre in the tile that it stands on, and so in the way of the next one's side.
@@ -37,8 +36,7 @@ pub struct Touch<V> {
 /// A contact of a body in the plane with a third body: see [`Touch`].
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
-/// use asunder_narrow::{Touch2, Pair2};
+/// use asunder::{Circle, Pair2, Pose2, Shape2, Touch2, glam::Vec2};
 /// let ball = Shape2::from(Circle::new(0.5)?);
 /// let beside = Pose2::at([0.75, 0.0])?;
 /// let touch = Pair2::new(&ball, &Pose2::IDENTITY, &ball, &beside).manifold(0.0).ok_or("they touch")?;
@@ -84,8 +82,7 @@ impl Pair2<'_> {
     /// manifolds.
     ///
     /// ```
-    /// use asunder_geometry::{Circle, Pose2, Shape2, glam::Vec2};
-    /// use asunder_narrow::{Touch2, Pair2};
+    /// use asunder::{Circle, Pair2, Pose2, Shape2, Touch2, glam::Vec2};
     /// let ball = Shape2::from(Circle::new(1.0)?);
     /// let (here, there) = (Pose2::IDENTITY, Pose2::at([1.5, 0.0])?);
     /// let mut touches = vec![];
@@ -107,8 +104,7 @@ impl Pair3<'_> {
     /// manifolds.
     ///
     /// ```
-    /// use asunder_geometry::{Sphere, Pose3, Shape3, glam::Vec3};
-    /// use asunder_narrow::{Touch3, Pair3};
+    /// use asunder::{Pair3, Pose3, Shape3, Sphere, Touch3, glam::Vec3};
     /// let ball = Shape3::from(Sphere::new(1.0)?);
     /// let (here, there) = (Pose3::IDENTITY, Pose3::at([1.5, 0.0, 0.0])?);
     /// let mut touches = vec![];

@@ -213,24 +213,12 @@ impl<S: Space> CollideStage<'_, S> {
                     Some(self.record_of(candidate, met, manifolds, answered))
                 }
                 Way::Computed => {
-                    // Each job has an answer, in order, and both bodies exist: `answer` has seen to that.
-                    let (a, b) = candidate.keys;
-                    let bodies = self.bodies.get(a).zip(self.bodies.get(b));
+                    // Each job has an answer, in order.
                     let answer = answered.answers.get(next_answer);
                     next_answer += 1;
-                    answer.zip(bodies).and_then(|(answer, bodies)| {
-                        self.learn(candidate, answer);
-                        match self.kept_of((candidate.pair, bodies), answer, answered, settled) {
-                            Some(kept) => settled.kept.push((index as u32, kept)),
-                            None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
-                        }
-                        let &Answer::Contact { overlapping, ref manifolds, .. } = answer else { return None };
-                        let manifolds = place_of(manifolds.start, manifolds.end);
-                        let (a, b) = bodies;
-                        let user_data = (a.user_data, b.user_data);
-                        let met = Met { overlapping, user_data, sensor: a.sensor || b.sensor };
-                        Some(self.record_of(candidate, met, manifolds, answered))
-                    })
+                    let numbers = [chunk_number as u32, index as u32];
+                    answer
+                        .and_then(|answer| self.record_anew((numbers, candidate), answer, answered, settled))
                 }
                 Way::Open => None,
             };
@@ -252,6 +240,29 @@ impl<S: Space> CollideStage<'_, S> {
         settled.tally.end();
         // `choose` put those of lost candidates first. Numbers ascend as pairs do.
         settled.ended.sort_unstable();
+    }
+
+    /// Learns from the answer about a candidate, and makes the record of a contact. The numbers are the chunk's, and the
+    /// pair's within it.
+    #[inline(always)]
+    fn record_anew(
+        &self,
+        ([chunk, index], candidate): ([u32; 2], &mut Candidate<S::Key>),
+        answer: &Answer,
+        answered: &Batch<S::Manifold>,
+        settled: &mut Settled<S>,
+    ) -> Option<Record<S::Key>> {
+        // Both bodies exist: `answer` has seen to that.
+        let (a, b) = self.bodies.get(candidate.keys.0).zip(self.bodies.get(candidate.keys.1))?;
+        self.learn(candidate, answer);
+        match self.kept_of((candidate.pair, (a, b)), answer, answered, settled) {
+            Some(kept) => settled.kept.push((index, kept)),
+            None => settled.vacate(core::mem::replace(&mut candidate.persistent, NOWHERE)),
+        }
+        let &Answer::Contact { overlapping, ref manifolds, .. } = answer else { return None };
+        let manifolds = Place { chunk, start: manifolds.start, end: manifolds.end };
+        let met = Met { overlapping, user_data: (a.user_data, b.user_data), sensor: a.sensor || b.sensor };
+        Some(self.record_of(candidate, met, manifolds, answered))
     }
 
     /// Stores an answer about a pair for the next update.

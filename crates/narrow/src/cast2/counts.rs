@@ -56,8 +56,7 @@ impl Pair2<'_> {
     /// answer does not count, another search.
     ///
     /// ```
-    /// use asunder_geometry::{Chain, Circle, Pose2, Shape2, glam::Vec2};
-    /// use asunder_narrow::Pair2;
+    /// use asunder::{Chain, Circle, Pair2, Pose2, Shape2, glam::Vec2};
     /// let ball = Shape2::from(Circle::new(0.5)?);
     /// let chain = Chain::open([[-1.0, 0.0], [0.3, 0.0], [1.3, 5.0]].map(Vec2::from))?.into();
     /// let pose = Pose2::at([0.0, 2.0])?;

@@ -38,8 +38,7 @@ const ROUNDINGS: f64 = 16.0;
 /// segments whose boxes it meets; some microseconds where the origin lies on the outline up to rounding.
 ///
 /// ```
-/// use asunder_geometry::{Circle, Pose2, Ray2, Shape2, glam::Vec2};
-/// use asunder_narrow::cast_ray2;
+/// use asunder::{Circle, Pose2, Ray2, Shape2, cast_ray2, glam::Vec2};
 /// let ball = Shape2::from(Circle::new(1.0)?);
 /// let ray = Ray2::new([-3.0, 0.0], Vec2::X * 4.0)?;
 /// let hit = cast_ray2(&ball, &Pose2::IDENTITY, &ray, f64::INFINITY).ok_or("it hits")?;

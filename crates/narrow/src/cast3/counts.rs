@@ -47,8 +47,7 @@ impl Pair3<'_> {
     /// answer does not count, another search.
     ///
     /// ```
-    /// use asunder_geometry::{Cuboid, Compound3, Pose3, Shape3, Sphere, glam::Vec3};
-    /// use asunder_narrow::Pair3;
+    /// use asunder::{Compound3, Cuboid, Pair3, Pose3, Shape3, Sphere, glam::Vec3};
     /// let (ball, cube) = (Shape3::from(Sphere::new(0.5)?), Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?));
     /// let (low, high) = (Pose3::at([0.0, -1.0, 0.0])?, Pose3::at([1.4, 0.0, 0.0])?);
     /// let stairs = Compound3::new([(low, cube.clone()), (high, cube)])?.into();

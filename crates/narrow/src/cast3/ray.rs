@@ -94,8 +94,7 @@ enum Meeting {
 /// so thin that their faces' roundings matter.
 ///
 /// ```
-/// use asunder_geometry::{Cuboid, Pose3, Ray3, Shape3, glam::{DVec3, Vec3}};
-/// use asunder_narrow::cast_ray3;
+/// use asunder::{Cuboid, Pose3, Ray3, Shape3, cast_ray3, glam::{DVec3, Vec3}};
 /// let crate_ = Shape3::from(Cuboid::from_half_extents(Vec3::ONE)?);
 /// let pose = Pose3::at([10.0, 0.0, 0.0])?;
 /// let ray = Ray3::new([0.0, 0.5, 0.0], Vec3::X * 2.0)?;

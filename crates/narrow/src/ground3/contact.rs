@@ -143,32 +143,34 @@ use whole::touching;
 /// Most triangles whose overlap decision waits until all have been seen.
 const MOST_UNCLEAR: usize = 32;
 
-/// Whether a body and ground overlap, if they are within the margin, of which motions may use up some metres; their
-/// manifolds go where they are wanted. `None` where neither shape is ground. Two grounds have no contacts with each
-/// other.
-pub(crate) fn contact_on_ground(
-    pair: &Pair3,
-    margin_and_ahead: [f32; 2],
-    manifolds: &mut impl Room,
-) -> Option<Option<bool>> {
-    contact_by(pair, margin_and_ahead, manifolds, false)
+impl Pair3<'_> {
+    /// Whether a body and ground overlap, if they are within the margin, of which motions may use up some metres; their
+    /// manifolds go where they are wanted. Two grounds have no contacts with each other.
+    pub(crate) fn contact_on(
+        &self,
+        on: &OnGround,
+        margin_and_ahead: [f32; 2],
+        manifolds: &mut impl Room,
+    ) -> Option<bool> {
+        contact_by(self, on, margin_and_ahead, manifolds, false)
+    }
 }
 
 /// The same, with the fast paths, or by the general path alone.
 #[inline]
 fn contact_by(
     pair: &Pair3,
+    on: &OnGround,
     [margin, ahead]: [f32; 2],
     manifolds: &mut impl Room,
     is_plain: bool,
-) -> Option<Option<bool>> {
-    let on = OnGround::of(pair)?;
+) -> Option<bool> {
     if on.body.is_ground() {
-        return Some(None);
+        return None;
     }
     let poses = if on.is_b { [&pair.pose_a, &pair.pose_b] } else { [&pair.pose_b, &pair.pose_a] };
     let query = GroundQuery {
-        on: &on,
+        on,
         poses,
         margin: margin.max(0.0),
         reach: reach_of(margin),
@@ -182,7 +184,7 @@ fn contact_by(
         }
         found == Some(true) && !manifolds.is_wanted()
     });
-    Some(found)
+    found
 }
 
 /// A query: contacts of a body on ground within a margin.

@@ -8,6 +8,6 @@ mod sides;
 mod sphere;
 
 pub(crate) use bounds::Corners;
-pub(crate) use contact::{contact_on_ground, front_of, widened};
+pub(crate) use contact::{front_of, widened};
 pub(crate) use near::{OnGround, Viewpoint, box_around};
 pub(crate) use sides::{Facing, Touched};

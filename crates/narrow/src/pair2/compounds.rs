@@ -2,7 +2,7 @@
 
 use super::{Pair2, Part, for_parts_in};
 use crate::answer::Manifold2;
-use crate::batch::Met;
+use crate::batch::Proximity;
 use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polygon::measure::Query;
@@ -18,7 +18,7 @@ impl Pair2<'_> {
         query: &Query,
         margin: f32,
         keep: &mut impl FnMut(Manifold2),
-    ) -> (Hint, Met) {
+    ) -> (Hint, Proximity) {
         let Bodies { shapes, turns, between } = self.bodies();
         let wholes = Wholes2 { shapes, turns, between };
         let sought = query.hint.sought();
@@ -35,7 +35,7 @@ impl Pair2<'_> {
         };
         let shadow = if is_worth_it { wholes.shadow(from, query.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (Hint::towards(from.extend(0.0)), Err(0.0));
+            return (Hint::towards(from.extend(0.0)), Proximity::Beyond(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &self.turn_b);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > query.limit;
@@ -62,6 +62,6 @@ impl Pair2<'_> {
         });
         let next = shadow.map_or(from, |(_, next)| next);
         let hint = if touch.is_some() { kept.hint() } else { query.hint.seeking(next.extend(0.0)) };
-        (hint, touch.ok_or(0.0))
+        (hint, Proximity::of(touch))
     }
 }

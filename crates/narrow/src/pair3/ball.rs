@@ -6,7 +6,7 @@
 use super::balls::ClosedForm;
 use super::{Pair3, Part, reach_of};
 use crate::answer::{Tier, Verdict};
-use crate::batch::{Met, beyond};
+use crate::batch::{Proximity, beyond};
 use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
 use crate::polyhedron::cuboids::ball::Nearest;
@@ -105,11 +105,11 @@ impl Ball<'_> {
 
     /// Whether they overlap, if they are within the margin. The manifold is written if one is wanted.
     #[inline]
-    pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
+    pub(super) fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Proximity {
         if self.is_far(reach_of(margin)) {
             // Roundings as in `is_far`.
             let apart = self.pair.between.length() * (1.0 - 8.0 * f64::EPSILON);
-            return Err(beyond(apart - self.outer_radii(), reach_of(margin)));
+            return Proximity::Beyond(beyond(apart - self.outer_radii(), reach_of(margin)));
         }
         self.in_cuboid_axes().contact(margin, manifolds)
     }

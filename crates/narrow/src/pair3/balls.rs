@@ -15,7 +15,7 @@
 
 use super::{IDENTITY, Pair3, Part, reach_of};
 use crate::answer::{Closest3, ContactPoint3, Manifold3, Measured3, Separation3, Tier, Verdict};
-use crate::batch::{Met, beyond};
+use crate::batch::{Proximity, beyond};
 use crate::exact::{self, Corner};
 use crate::feature::{Feature, FeatureId};
 use crate::precision::{Precision, at_least, length_at_most, signed};
@@ -85,7 +85,7 @@ impl Pair3<'_> {
     }
 
     #[inline]
-    pub(super) fn contact_in_closed_form(&self, margin: f32, manifolds: &mut impl Room) -> Option<Met> {
+    pub(super) fn contact_in_closed_form(&self, margin: f32, manifolds: &mut impl Room) -> Option<Proximity> {
         let pair = self.with_closed_form()?;
         (pair.balls().map(|balls| balls.contact(margin, manifolds)))
             .or_else(|| pair.on_plane().map(|over| over.contact(margin, manifolds)))
@@ -222,22 +222,23 @@ pub(super) trait ClosedForm {
 
     /// Whether they overlap, if they are within the margin. The manifold is written if one is wanted.
     #[inline]
-    fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Met {
+    fn contact(&self, margin: f32, manifolds: &mut impl Room) -> Proximity {
         let reach = reach_of(margin);
         if self.beyond(reach) {
-            return Err(beyond(at_least(self.separation(), self.precision()).into(), reach));
+            let at_least = at_least(self.separation(), self.precision());
+            return Proximity::Beyond(beyond(at_least.into(), reach));
         }
         let overlapping = self.verdict().overlapping;
         let Measured3 { separation, error, normal } = self.measured(overlapping);
         if !overlapping && separation > margin.max(0.0) {
-            return Err(0.0);
+            return Proximity::Beyond(0.0);
         }
         if let Some(manifold) = manifolds.room(separation) {
             (manifold.normal, manifold.separation, manifold.error) = (normal, separation, error);
             self.add_points(margin, manifold);
             manifold.plumb(self.is_from_b(), self.pair().between);
         }
-        Ok(overlapping)
+        Proximity::Within { overlapping }
     }
 
     /// Adds the points to a manifold whose other fields are set.

@@ -2,7 +2,7 @@
 
 use super::part::for_parts_in;
 use super::{Pair3, Part};
-use crate::batch::Met;
+use crate::batch::Proximity;
 use crate::feature::Hint;
 use crate::kept::Kept;
 use crate::polyhedron::convex::Query;
@@ -18,7 +18,7 @@ impl Pair3<'_> {
         query: Query,
         margin: f32,
         manifolds: &mut impl Room,
-    ) -> (Hint, Met) {
+    ) -> (Hint, Proximity) {
         let bases = self.bases();
         let wholes = Wholes3 {
             shapes: [self.shape_a, self.shape_b],
@@ -39,7 +39,7 @@ impl Pair3<'_> {
         };
         let shadow = if is_worth_it { wholes.shadow(from, query.limit) } else { None };
         if shadow.as_ref().is_some_and(|(shadow, _)| shadow.parts_wholes()) {
-            return (Hint::towards(bases[0].turn_back(from)), Err(0.0));
+            return (Hint::towards(bases[0].turn_back(from)), Proximity::Beyond(0.0));
         }
         let whole_b = Part::whole(self.shape_b, &bases[1]);
         let is_far = |a: &Part, b: &Part| self.gap(a, b) > query.limit;
@@ -66,6 +66,6 @@ impl Pair3<'_> {
         });
         let next = shadow.map_or(from, |(_, next)| next);
         let hint = if touch.is_some() { kept.hint() } else { query.hint.seeking(bases[0].turn_back(next)) };
-        (hint, touch.ok_or(0.0))
+        (hint, Proximity::of(touch))
     }
 }

@@ -136,19 +136,9 @@ impl<'a> Convex<'a> {
 
     /// The separation where it is within the limit; the hinted axis is tried first.
     pub(crate) fn probe(&self, query: Query) -> Probe {
-        let limit = query.limit;
-        if let Some(ball) = self.ball() {
-            return self.probe_closed_form(self.closed_form_of_ball(ball), limit);
-        }
-        match self.planes() {
-            [Some(a), Some(b)] => self.probe_closed_form(self.closed_form_of_half_spaces(a, b), limit),
-            [Some(plane), None] | [None, Some(plane)] => {
-                self.probe_closed_form(self.closed_form_of_half_space(plane), limit)
-            }
-            [None, None] => match self.slenders() {
-                Some([a, b]) => self.probe_closed_form(self.closed_form_of_slender(&a, &b), limit),
-                None => self.with_solids(|a, b| self.probe_solids(a, b, query)),
-            },
+        match self.closed_form() {
+            Some(result) => self.probe_closed_form(result, query.limit),
+            None => self.with_solids(|a, b| self.probe_solids(a, b, query)),
         }
     }
 
@@ -160,14 +150,14 @@ impl<'a> Convex<'a> {
         accept: impl FnOnce(&Near) -> bool,
         touch: &mut Touch,
     ) -> (Probe, bool) {
-        let (([None, None], None), None) = ((self.planes(), self.ball()), self.slenders()) else {
+        if self.simple().is_some() {
             let probe = self.probe(query);
             let is_made = match &probe {
                 Probe::Near(near) if accept(near) => self.touch(near, query, touch),
                 _ => false,
             };
             return (probe, is_made);
-        };
+        }
         if let Some(probe) = self.parted_as_before(query) {
             return (probe, false);
         }
@@ -201,18 +191,9 @@ impl<'a> Convex<'a> {
                 },
             };
         }
-        if let Some(ball) = self.ball() {
-            return self.closed_form_verdict(&self.closed_form_of_ball(ball));
-        }
-        match self.planes() {
-            [None, None] => match self.slenders() {
-                Some([a, b]) => self.closed_form_verdict(&self.closed_form_of_slender(&a, &b)),
-                None => self.with_solids(|a, b| self.verdict_of_solids(a, b)),
-            },
-            [Some(a), Some(b)] => self.closed_form_verdict(&self.closed_form_of_half_spaces(a, b)),
-            [Some(plane), None] | [None, Some(plane)] => {
-                self.closed_form_verdict(&self.closed_form_of_half_space(plane))
-            }
+        match self.closed_form() {
+            Some(result) => self.closed_form_verdict(&result),
+            None => self.with_solids(|a, b| self.verdict_of_solids(a, b)),
         }
     }
 
@@ -223,18 +204,9 @@ impl<'a> Convex<'a> {
         {
             return cuboids.overlaps();
         }
-        if let Some(ball) = self.ball() {
-            return self.closed_form_of_ball(ball).separation <= 0.0;
-        }
-        match self.planes() {
-            [None, None] => match self.slenders() {
-                Some([a, b]) => self.closed_form_of_slender(&a, &b).separation <= 0.0,
-                None => self.with_solids(|a, b| self.guess_of_solids(a, b)),
-            },
-            [Some(a), Some(b)] => a.separation_from(&b, || true) <= 0.0,
-            [Some(plane), None] | [None, Some(plane)] => {
-                self.closed_form_of_half_space(plane).separation <= 0.0
-            }
+        match self.closed_form() {
+            Some(result) => result.separation <= 0.0,
+            None => self.with_solids(|a, b| self.guess_of_solids(a, b)),
         }
     }
 

@@ -45,8 +45,9 @@ impl Numbers {
 
 fn contacts_of(pair: &Pair3, is_plain: bool) -> (Option<bool>, Vec<Manifold3>) {
     let mut manifolds = Vec::new();
-    let found = contact_by(pair, [0.02, 0.0], &mut Some(&mut manifolds), is_plain);
-    (found.expect("one is ground"), manifolds)
+    let on = OnGround::of(pair).expect("one is ground");
+    let found = contact_by(pair, &on, [0.02, 0.0], &mut Some(&mut manifolds), is_plain);
+    (found, manifolds)
 }
 
 #[test]

@@ -14,9 +14,9 @@ impl Convex<'_> {
         if let Some(cuboids) = self.cuboids() {
             return cuboids.gap(radii, limit, &self.precision);
         }
-        let (([None, None], None), None) = ((self.planes(), self.ball()), self.slenders()) else {
+        if self.simple().is_some() {
             return Gap::Unclear;
-        };
+        }
         let beyond = limit + self.radii + self.precision.projection();
         self.with_solids(|a, b| {
             // What is far apart needs no search for a common point.

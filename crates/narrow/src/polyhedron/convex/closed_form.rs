@@ -13,6 +13,14 @@ use arrayvec::ArrayVec;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
+/// Two shapes that are measured in closed form, as their kernel takes them.
+pub(super) enum Simple {
+    HalfSpaces(Plane, Plane),
+    HalfSpace(Plane),
+    Ball(Ball),
+    Slender([Slender; 2]),
+}
+
 /// The result of a kernel in closed form.
 pub(super) struct ClosedForm {
     pub(super) separation: f64,
@@ -61,7 +69,31 @@ impl Ball {
 }
 
 impl Convex<'_> {
-    pub(super) fn closed_form_of_half_spaces(&self, a: Plane, b: Plane) -> ClosedForm {
+    /// How the pair is measured in closed form; `None` for two solids.
+    #[inline]
+    pub(super) fn simple(&self) -> Option<Simple> {
+        if let Some(ball) = self.ball() {
+            return Some(Simple::Ball(ball));
+        }
+        match self.planes() {
+            [Some(a), Some(b)] => Some(Simple::HalfSpaces(a, b)),
+            [Some(plane), None] | [None, Some(plane)] => Some(Simple::HalfSpace(plane)),
+            [None, None] => self.slenders().map(Simple::Slender),
+        }
+    }
+
+    /// The result of the pair's kernel in closed form; `None` for two solids.
+    #[inline]
+    pub(super) fn closed_form(&self) -> Option<ClosedForm> {
+        self.simple().map(|simple| match simple {
+            Simple::HalfSpaces(a, b) => self.closed_form_of_half_spaces(a, b),
+            Simple::HalfSpace(plane) => self.closed_form_of_half_space(plane),
+            Simple::Ball(ball) => self.closed_form_of_ball(ball),
+            Simple::Slender([a, b]) => self.closed_form_of_slender(&a, &b),
+        })
+    }
+
+    fn closed_form_of_half_spaces(&self, a: Plane, b: Plane) -> ClosedForm {
         let separation = a.separation_from(&b, || exact::are_opposed3([&self.sites[0], &self.sites[1]]));
         ClosedForm {
             separation,
@@ -73,7 +105,7 @@ impl Convex<'_> {
         }
     }
 
-    pub(super) fn closed_form_of_half_space(&self, plane: Plane) -> ClosedForm {
+    fn closed_form_of_half_space(&self, plane: Plane) -> ClosedForm {
         let (shape, frame) = self.shape_over(&plane);
         let vertex = plane.lowest_of(shape, frame);
         let height = plane.height(vertex);
@@ -85,7 +117,7 @@ impl Convex<'_> {
         ClosedForm { separation, at_least: separation, normal, closest, evidence, corners }
     }
 
-    pub(super) fn closed_form_of_slender(&self, a: &Slender, b: &Slender) -> ClosedForm {
+    fn closed_form_of_slender(&self, a: &Slender, b: &Slender) -> ClosedForm {
         let nearest = slender::nearest(a, b, self.precision.projection());
         ClosedForm {
             separation: nearest.distance - self.radii,
@@ -99,7 +131,7 @@ impl Convex<'_> {
 
     /// A sphere's centre and a cuboid, if that is what they are, in the frame of the pair.
     #[inline]
-    pub(super) fn ball(&self) -> Option<Ball> {
+    fn ball(&self) -> Option<Ball> {
         match (self.shape_a, self.shape_b) {
             (Shape3::Cuboid(a), Shape3::Sphere(_)) => {
                 let nearest = Nearest::of(a.half_extents().as_dvec3(), self.offset);
@@ -116,7 +148,7 @@ impl Convex<'_> {
         }
     }
 
-    pub(super) fn closed_form_of_ball(&self, ball: Ball) -> ClosedForm {
+    fn closed_form_of_ball(&self, ball: Ball) -> ClosedForm {
         let Ball { nearest, is_b, .. } = ball;
         let separation = nearest.separation - self.radii;
         ClosedForm {
