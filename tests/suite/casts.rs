@@ -7,6 +7,7 @@ mod hard;
 mod moving;
 mod peer;
 mod rays;
+mod stopped;
 mod turning;
 
 use asunder_geometry::glam::DVec3;
@@ -66,16 +67,17 @@ impl Course<'_> {
         a + b + turn
     }
 
-    /// Asserts that up to a fraction of the way no overlap is deeper than rounding.
+    /// Asserts that up to a fraction of the way nothing overlaps; of two that start nearer than rounding, and may move
+    /// along each other, not deeper than that.
     pub(crate) fn check_free(&self, until: f64, message: &str) {
         let near = [1e-9, 1e-6, 1e-3].map(|share| until * (1.0 - share));
         for fraction in (0..=SAMPLES).map(|i| until * i as f64 / SAMPLES as f64).chain(near) {
             let [a, b] = self.poses(fraction);
             if Pair3::new(&self.case.shape_a, &a, &self.case.shape_b, &b).overlaps() {
-                let (separation, error) = self.separation(fraction);
+                let [(first, doubt), (separation, error)] = [0.0, fraction].map(|at| self.separation(at));
                 assert!(
-                    separation + error >= -self.rounding(),
-                    "{message}: {separation} at {fraction}: {:?} {:?}",
+                    first - doubt <= self.rounding() && separation + error >= -self.rounding(),
+                    "{message}: {separation} at {fraction}, {first} at the start: {:?} {:?}",
                     self.case,
                     self.motions
                 );

@@ -2,7 +2,8 @@
 //! overlap test; and rays, by the same with a tiny circle.
 
 use asunder_geometry::{
-    Circle, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Shape2, tolerance::CAST_GAP2,
+    Circle, Compound2, HalfPlane, Motion2, Polygon, Pose2, Ray2, Rect, Rotation2, Shape2,
+    tolerance::CAST_GAP2,
 };
 use asunder_narrow::{Impact2, Pair2, Separation2, cast_ray2};
 use asunder_tests::cases::Random;
@@ -454,5 +455,33 @@ fn radii_are_not_turned_and_not_stretched() {
         let off = (hit.distance - truth).abs();
         assert!(off <= f64::from(hit.error) + rounding, "case {case}: {off} m off, {hit:?}");
         assert!(hit.error < 1e-11 * radius, "case {case}: {hit:?}");
+    }
+}
+
+/// What is nearer than its rounding may turn away, and comes no nearer by turning in.
+///
+/// Symptom: a body that a turn had brought to another could not turn back; each motion had an impact at its start.
+#[test]
+fn what_all_but_touches_may_turn_away_in_the_plane() {
+    let bar = Shape2::from(Rect::from_half_extents(Vec2::new(0.5, 0.05)).unwrap());
+    let slab = Shape2::from(Rect::from_half_extents(Vec2::new(5.0, 0.5)).unwrap());
+    let ball = Shape2::from(Circle::new(0.5).unwrap());
+    // The bar's hinge is at its left end, in its middle line.
+    let bar: Shape2 = Compound2::new([(Pose2::at([0.5, 0.0]).unwrap(), bar)]).unwrap().into();
+    let mut random = Random::new(816);
+    for round in 0..600 {
+        // A slab over all of the bar but the hinge; a ball over its middle; a slab over the hinge, too.
+        let (other, x) = [(&slab, 5.3), (&ball, 0.6), (&slab, 0.0)][round % 3];
+        let gap = random.pick(&[1e-9, 1e-8, 5e-8, 1e-7, 3e-7]);
+        let above = Pose2::at([x, 0.55 + gap]).unwrap();
+        let pair = Pair2::new(&bar, &Pose2::IDENTITY, other, &above);
+        assert!(!pair.overlaps());
+        let angle = random.between(0.05, 2.8) as f32;
+        let [away, into] = [-angle, angle]
+            .map(|angle| Motion2::new([0.0, 0.0], Rotation2::from_angle(angle).unwrap()).unwrap());
+        assert_eq!(pair.impact(&away, &Motion2::STILL), None, "round {round}, {gap} m apart, {angle}");
+        let stopped = pair.impact(&into, &Motion2::STILL).unwrap();
+        assert!(stopped.fraction < 1e-5 && !stopped.overlapping, "round {round}: {stopped:?}");
+        assert!(f64::from(stopped.error) < gap + 3e-7, "round {round}: {stopped:?}");
     }
 }

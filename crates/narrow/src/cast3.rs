@@ -48,16 +48,16 @@ use asunder_geometry::{Motion3, Shape3};
 use beyond::with_touched;
 use counts::Counts;
 use march::march;
-use passage::{Course, Passage, Stretch, rounding_of};
+use passage::{Course, Passage, Stretch, rounding_past};
 pub use ray::cast_ray3;
 
 impl Pair3<'_> {
     /// The first touch of A, moved by a displacement in metres, with B, which stands still; `None` if there is none.
     ///
-    /// - Before the reported fraction the shapes certainly do not touch. At the fraction they are at most `error`
-    ///   apart: at most 1e-6 of the size of the parts that meet for round shapes, and 4e-9 for others, plus rounding;
-    ///   more only where the displacement is so long or the bodies so far from the origin that f64 cannot represent a
-    ///   nearer place.
+    /// - Up to the reported fraction the shapes certainly do not touch, nor do they in poses that are moved by it and
+    ///   rounded to f64. At the fraction they are at most `error` apart: at most 1e-6 of the size of the parts that
+    ///   meet for round shapes, and 4e-9 for others, plus rounding; more only where the displacement is so long or the
+    ///   bodies so far from the origin that f64 cannot represent a nearer place.
     /// - A miss is certain too. Shapes that pass each other within `error` may be reported as an impact. Shapes that
     ///   move apart are not, however near they are, so that a shape which a cast has brought up to another may leave
     ///   it. Rare exceptions: shapes that leave an edge or a corner less than 1e-12 of the larger size away, or a shape
@@ -101,8 +101,10 @@ impl Pair3<'_> {
             let radii = [a.radius(), b.radius()].map(f64::from);
             let centers = [DVec3::ZERO; 2];
             let [from, to] = centers;
-            let stretch = Stretch::of_spheres([from, to, self.between], radii[0] + radii[1], drift, 1.0)?;
-            if let Some(met) = balls(&stretch, drift, radii, centers, rounding_of(&self.pose_a, drift)) {
+            let rounding = rounding_past(self, drift);
+            let both = (radii[0] + radii[1], rounding);
+            let stretch = Stretch::of_spheres([from, to, self.between], both, drift, 1.0)?;
+            if let Some(met) = balls(&stretch, drift, radii, centers, rounding) {
                 return Some(impact_of(&met, [0, 0]));
             }
         }
@@ -111,11 +113,14 @@ impl Pair3<'_> {
 
     /// The first touch of two bodies that both move and may turn; `None` if there is none.
     ///
-    /// Like [`cast`](Self::cast), but along the path that [`Motion3`] describes, taken exactly: before the reported
-    /// fraction the shapes do not touch on that path.
+    /// Like [`cast`](Self::cast), but along the path that [`Motion3`] describes: up to the reported fraction the shapes
+    /// do not touch on that path, nor in the poses that [`Motion3::pose_at`] gives, which rounds positions to f64 and
+    /// rotations to f32.
     ///
-    /// - [`Motion3::pose_at`] rounds rotations to f32 and positions to f64. Poses from it may overlap by that rounding
-    ///   just before the fraction, and at the fraction are at most `error` apart with it.
+    /// - At the fraction they are at most `error` apart. If a body turns, and is not a sphere about its position, that
+    ///   is no less than 1.2e-7 of its arm.
+    /// - Shapes that are nearer than that rounding at the start may move apart or along each other, and poses on the way
+    ///   may then overlap by rounding. If they move towards each other, the fraction is 0.
     /// - If many steps bring the shapes no nearer, as when they graze each other while they turn, the fraction is that
     ///   of the last step, and `error` the gap that is left there.
     ///

@@ -16,7 +16,8 @@ use asunder_geometry::glam::Vec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Impact2 {
-    /// The fraction of the motion at the impact, from 0 to 1. Before it the shapes do not touch.
+    /// The fraction of the motion at the impact, from 0 to 1. Up to it, the poses that `pose_at` of the motions gives do
+    /// not touch.
     pub fraction: f64,
     /// Bound on the distance of the shapes at `fraction`, in metres; 0 if they touch at the start. It includes the
     /// rounding of a pose at that fraction.

@@ -65,8 +65,8 @@ pub type RayAnswer3 = RayAnswer<BodyKey3, Vec3, DVec3>;
 pub struct CastAnswer<K, N, P> {
     /// The body.
     pub body: K,
-    /// The fraction of the displacement after which they touch, 0 to 1. It is never too great: before it they do not
-    /// touch. Multiply in f64: rounded to f32, it may be too great.
+    /// The fraction of the displacement after which they touch, 0 to 1. It is never too great: a shape that is moved by
+    /// it is free of the body. Multiply in f64: rounded to f32, it may be too great.
     pub fraction: f64,
     /// Bound on the gap that is still left between them then, in metres; 0 if they touch at the start.
     pub error: f32,

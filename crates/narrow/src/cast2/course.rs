@@ -3,6 +3,7 @@
 mod again;
 mod landing;
 mod meeting;
+mod steps;
 mod wheel;
 
 use landing::Landing;
@@ -11,7 +12,6 @@ pub(super) use meeting::meeting;
 use super::at_start;
 use super::piece::Piece;
 use super::stretch::Stretch;
-use crate::counted::count_step;
 use crate::ground2::Surface;
 use crate::pair2::Pair2;
 use crate::polygon::distance::{Reached, Until, Witness, distance};
@@ -22,24 +22,8 @@ use asunder_geometry::tolerance::{CAST_GAP2, SAME_NORMAL};
 use asunder_geometry::{Chain, Core2, Pose2, Rotation2, Run, Shape2};
 use core::cell::Cell;
 
-/// Rounds after which a cast gives up and reports an impact with the gap that is left. Shapes that graze take some 25
-/// rounds, others 1 to 10.
-const MAX_ROUNDS: usize = 96;
-
-/// Rounds after which axes that turn along with a body are tried as well. Beside the face of a body that turns, a fixed
-/// axis shows only as much of the gap as the far corner of that face leaves: shapes that part slowly get a twentieth
-/// more a round, and 96 rounds are not enough to get away from a gap of 0.1 mm. The face's own normal shows all of the
-/// gap.
-const PATIENT: usize = 12;
-
-/// Tries for one round's step of shapes that turn.
-const MAX_TRIES: usize = 20;
-
 /// The most that rounding to f32 turns a unit axis by.
 const ROUNDED: f64 = f32::EPSILON as f64;
-
-/// Share of the gap that a step may leave unused, for shapes that turn.
-const UNUSED: f64 = 0.03;
 
 /// Rounding error of a projection, in units of 2^-53 of the reach: that of parts of compounds (16) and of searched
 /// supports (4), the root and quotient of a rotation in between (3), and the product and sum for the offset (3);
@@ -88,33 +72,6 @@ struct Look {
     most: f64,
     /// Points of both cores, relative to A's position.
     points: [DVec2; 2],
-}
-
-/// The longest step within `rest` that certainly leaves something, or one that leaves little of the `over` that there
-/// is.
-///
-/// Regula falsi, the Illinois variant: the value at the end that stays counts half.
-fn longest_step((over, rest): (f64, f64), left: impl Fn(f64) -> f64) -> f64 {
-    let ([mut low, mut high], mut at_low) = ([0.0, rest], over);
-    let mut at_high = left(rest);
-    if at_high >= 0.0 {
-        return rest;
-    }
-    let mut found = 0.0;
-    for _ in 0..MAX_TRIES {
-        let try_at = (low + (high - low) * (at_low / (at_low - at_high))).clamp(low, high);
-        let sure = left(try_at);
-        if sure < 0.0 {
-            (high, at_high, at_low) = (try_at, sure, at_low * 0.5);
-            continue;
-        }
-        found = try_at;
-        if sure <= UNUSED * over {
-            break;
-        }
-        (low, at_low, at_high) = (try_at, sure, at_high * 0.5);
-    }
-    found
 }
 
 impl<'a> Course<'a> {
@@ -171,46 +128,6 @@ impl<'a> Course<'a> {
         }
     }
 
-    fn by_steps(&self) -> Option<Touching> {
-        let mut now = self.times[0];
-        let mut axis = self.towards_b(now);
-        for round in 1..=MAX_ROUNDS {
-            count_step();
-            let look = self.look(now, axis);
-            if now <= 0.0 && look.as_ref().is_none_or(|look| look.least <= self.slack) {
-                self.doubts_start.set(true);
-            }
-            let Some(look) = look else {
-                let touching = self.too_close(now, axis);
-                let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);
-                return (!is_parting).then_some(touching);
-            };
-            axis = look.axis;
-            let rest = self.times[1] - now;
-            // Shapes that count as touching, and move apart, get no nearer than they are.
-            let is_parting =
-                look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(axis, 0.0);
-            let gives_up = round == MAX_ROUNDS;
-            if is_parting
-                || look.least > self.slack && self.keeps_apart(&look, now, rest)
-                || gives_up && self.circles_pass(&look, now)
-            {
-                return None;
-            }
-            if look.least <= self.aim || look.most <= self.enough || gives_up {
-                return Some(self.settled(&look, now));
-            }
-            let step = self.step(&look, now, rest);
-            let step = if round > PATIENT { self.turned_step(&look, now, rest).max(step) } else { step };
-            let next = (now + step).min(self.times[1]);
-            if next <= now {
-                return Some(self.settled(&look, now));
-            }
-            now = next;
-        }
-        None
-    }
-
     /// Whether a search has left open if they touch at time zero.
     pub(super) fn doubts_start(&self) -> bool {
         self.doubts_start.get()
@@ -240,67 +157,10 @@ impl<'a> Course<'a> {
         axis.dot(velocity) < -SAME_NORMAL * velocity.length()
     }
 
-    /// Whether the axis of a look shows a gap for all the time that is left.
-    fn keeps_apart(&self, look: &Look, now: f64, rest: f64) -> bool {
-        if self.bend == 0.0 && self.pace == 0.0 {
-            let closing = self.closing(look.axis);
-            return closing <= 0.0 || look.least - self.slack > closing * rest;
-        }
-        self.certain(look, now, rest) > self.slack
-    }
-
     /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
     fn closing(&self, axis: DVec2) -> f64 {
         let velocity = self.stretch.velocity;
         axis.dot(velocity) + 4.0 * f64::EPSILON * velocity.length()
-    }
-
-    /// The gap that is certain along the axis of a look, from then until some time later.
-    fn certain(&self, look: &Look, now: f64, later: f64) -> f64 {
-        let then = self.gap(look.axis, (now + later).min(self.times[1]));
-        look.least.min(then) - self.bend * later * later * 0.125 * (1.0 + 1e-9)
-    }
-
-    /// For how long the axis of a look, which shows more than the gap aimed at, goes on to do so.
-    fn step(&self, look: &Look, now: f64, rest: f64) -> f64 {
-        let over = look.least - self.aim;
-        let closing = self.closing(look.axis);
-        if self.bend == 0.0 && self.pace == 0.0 {
-            // The gap closes, or they would be apart for good.
-            return over / closing;
-        }
-        let found = longest_step((over, rest), |later| self.certain(look, now, later) - self.aim);
-        // A step that is safe however fast the points turn, and whichever way.
-        found.max(over / (closing.max(0.0) + self.pace)).min(rest)
-    }
-
-    /// The same for an axis that turns along with either body.
-    fn turned_step(&self, look: &Look, now: f64, rest: f64) -> f64 {
-        if self.line().is_some() {
-            return 0.0;
-        }
-        let over = look.least - self.aim;
-        let turning = [0, 1].into_iter().filter(|&which| self.stretch.spins[which].speed > 0.0);
-        let step = |which| {
-            longest_step((over, rest), |later| self.certain_along(which, look, now, later) - self.aim)
-        };
-        turning.map(step).fold(0.0, f64::max)
-    }
-
-    /// The gap that is certain from then until some time later, along the axis of a look that turns along with a body.
-    /// Seen from that body everything else turns about it, as seen from a half-plane.
-    fn certain_along(&self, which: usize, look: &Look, now: f64, later: f64) -> f64 {
-        let (then, spins) = ((now + later).min(self.times[1]), &self.stretch.spins);
-        let axis =
-            spins[which].turn_at(then).turn(spins[which].turn_at(now).turn_back(look.axis)).normalize();
-        let furthest = self.times.map(|time| self.stretch.offset_at(time).length());
-        let around = furthest[0].max(furthest[1]) + self.pieces[0].arm + self.pieces[1].arm;
-        let other = 1 - which;
-        let bend = spins[which].swerve * around
-            + 2.0 * spins[which].speed * (self.stretch.velocity.length() + self.pace)
-            + spins[other].swerve * self.pieces[other].arm;
-        let lost = 2.0 * spins[which].rounding * around;
-        look.least.min(self.gap(axis, then)) - bend * later * later * 0.125 * (1.0 + 1e-9) - lost
     }
 
     /// The impact that a look shows. If nothing turns, it is moved on to where no gap is left along the look's axis, if

@@ -26,6 +26,10 @@
 //! ```
 //! Near the contact K h^2 vanishes beside the gap, and the iteration is Newton's again.
 //!
+//! The poses that callers make of a fraction are rounded, the rotation of a body that turns to f32. What that may take
+//! from a gap, the slack, is left: so steps aim at the slack and a little more, and a pose that a motion was stopped at
+//! overlaps nothing. Two that are nearer at the start may move away or along each other, and do not end any nearer.
+//!
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other as seen from the
 //! plane. Axes that turn are useful for other bodies as well. Where a body passes beside a face of one that turns, a
 //! fixed axis shows no more of the gap than the far corner of that face leaves. So where steps are many, an axis that
@@ -33,9 +37,10 @@
 //! but touch at the start, and the axis between their nearest points does not show that they move apart, a support
 //! search for each face and some of the edges.
 
-use super::passage::{Course, Moment, length};
+use super::passage::{Course, Moment, length, off_drift};
 use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
+use crate::precision::{closed_after, outlasts};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
@@ -51,6 +56,10 @@ const MAX_CHORDS: usize = 6;
 /// Sine of the angle by which an axis between points may be off square to an edge and still be made so: far more than
 /// rounding makes of it.
 const TILTED: f64 = 1e-3;
+
+/// Share of their gap that a step leaves at least to two that are nearer than the slack: the less, the sooner those that
+/// turn away get away.
+const LEFT: f64 = 1.0 / 16.0;
 
 /// How the motion of two parts ends.
 pub(super) enum End {
@@ -94,13 +103,15 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         .try_normalize()
         .unwrap_or(DVec3::X);
     let (mut fraction, mut kept) = (0.0, f64::NEG_INFINITY);
-    let mut met = None;
+    // As long as two that turn are as near as counts as met since the start: how, and how near, they started.
+    let (mut met, mut start): (Option<Met>, Option<(Met, f64)>) = (None, None);
     for number in 0..MAX_STEPS {
         let moment = course.at(fraction);
         let mut found = closest(&moment.a, &moment.b, towards, &moment.precision);
         let doubt = moment.precision.projection();
         found.at_least -= course.radii + doubt;
-        let gap = found.at_most - course.radii + doubt + course.rounding(fraction, moment.between);
+        let at_most = found.at_most - course.radii + doubt;
+        let gap = at_most + course.rounding(fraction, moment.between);
         // The axis that led here still shows the gap that it was left with; a new one may show less, by rounding.
         if found.at_least < kept {
             (found.at_least, found.normal) = (kept, towards);
@@ -118,6 +129,13 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
                 || is_slight && course.features_part(&moment, normal, least, until);
             return End::Unclear(here, is_parting);
         }
+        let is_near = at_most <= course.slack + course.fineness.gap(doubt);
+        start = match start {
+            _ if !is_near => None,
+            Some((start, level)) if found.at_least < level - 4.0 * doubt => return End::Met(start),
+            None if fraction == 0.0 && !passage.is_straight() => Some((here, found.at_least)),
+            start => start,
+        };
         let carriers: &[Carrier] = if number < PATIENT { &[None] } else { &[None, Some(0), Some(1)] };
         let Some((step, left, carrier)) = course.longest_step(&moment, &found, [fraction, until], carriers)
         else {
@@ -125,8 +143,8 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         };
         // Never too far, whatever the sum's rounding.
         let next = (fraction + step).next_down();
-        if gap <= course.fineness.gap(doubt) || next <= fraction {
-            return End::Met(here);
+        if is_near && start.is_none() || next <= fraction {
+            return End::Met(start.map_or(here, |(start, _)| start));
         }
         met = Some(here);
         let next = next.min(until);
@@ -206,7 +224,7 @@ impl Course<'_> {
             }
         };
         let reaches = reach(0, met.normal) + reach(1, -met.normal) + self.radii;
-        let doubt = self.fineness.gap(moment.precision.projection());
+        let doubt = self.slack + self.fineness.gap(moment.precision.projection());
         [met.fraction, until]
             .into_iter()
             .all(|fraction| met.normal.dot(self.passage.between_at(fraction)) - reaches > doubt)
@@ -214,8 +232,7 @@ impl Course<'_> {
 
     /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
     fn closing(&self, axis: DVec3) -> f64 {
-        // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
-        axis.dot(self.passage.drift) + 16.0 * f64::EPSILON * length(self.passage.drift)
+        axis.dot(self.passage.drift) + off_drift(self.passage.drift)
     }
 
     /// The longest step by the axis that was found, turning along with whichever of the `carriers`; `None` if one of
@@ -260,12 +277,14 @@ impl Course<'_> {
         let span = until - fraction;
         let closing = self.closing(found.normal);
         let rest = self.fineness.rest(moment.precision.projection());
-        let free = found.at_least - rest;
+        let aim = self.slack + rest;
         if moment.spins == [DVec3::ZERO; 2] {
-            if closing <= 0.0 || found.at_least > closing * span * (1.0 + 4.0 * f64::EPSILON) {
+            // Of a motion along both, up to rounding, the end is as certain as the start.
+            let spared = if closing <= 2.0 * off_drift(self.passage.drift) { self.slack } else { 0.0 };
+            if outlasts(found.at_least - self.slack + spared, closing, span) {
                 return Step::Free;
             }
-            let step = (free.max(0.0) / closing) * (1.0 - 4.0 * f64::EPSILON);
+            let step = closed_after(found.at_least - aim, closing);
             return Step::By(step, found.at_least * (1.0 - 4.0 * f64::EPSILON) - closing * step);
         }
         if let (Placed::HalfSpace(_), Placed::HalfSpace(_)) = (&moment.a, &moment.b) {
@@ -275,12 +294,17 @@ impl Course<'_> {
         let axis = (found.normal, carrier);
         let mut bend = self.bend(moment, carrier, [fraction, span]);
         let at_end = self.shown(moment, axis, closing, span);
-        if at_end - 0.5 * bend * span * span > 0.0 {
+        // Never as near as poses may be off, or never nearer than now.
+        let least = at_end - 0.5 * bend * span * span;
+        if least > self.slack || least >= found.at_least {
             return Step::Free;
         }
-        if free <= 0.0 {
-            return Step::By(0.0, found.at_least);
-        }
+        // Those that start nearer may come nearer yet for a while, if only they do not stay so: `advance` sees to it.
+        let (aim, left) = match found.at_least > aim {
+            true => (aim, self.slack + 0.5 * rest),
+            false => (found.at_least * LEFT, found.at_least * LEFT * 0.5),
+        };
+        let free = found.at_least - aim;
         let (mut step, mut chord, mut end) = (0.0, span, at_end);
         for _ in 0..MAX_CHORDS {
             // The root of free + slope h - bend h^2 / 2.
@@ -296,7 +320,7 @@ impl Course<'_> {
             end = self.shown(moment, axis, closing, chord);
             bend = self.bend(moment, carrier, [fraction, chord]);
         }
-        Step::By(step * (1.0 - 16.0 * f64::EPSILON), 0.5 * rest)
+        Step::By(step * (1.0 - 16.0 * f64::EPSILON), left)
     }
 
     /// The separation along an axis after a step in which every vertex moves along its own tangent: a lower bound, but

@@ -71,7 +71,8 @@ pub(super) fn sweep(
     let doubt = IN_SPACE[1] * (f64::EPSILON / 2.0) * reach;
     let drift = basis_a.turn_back(passage.drift);
     let slack = 1e-10 * size / pace;
-    let (enter, leave, axis) = boxes.slabs(in_axes_of_a(between), drift, doubt).latest(slack);
+    let (enter, leave, axis) =
+        boxes.slabs(in_axes_of_a(between), drift, doubt + passage.rounding).latest(slack);
     // A quotient and a product: below four units.
     let (early, late) = (1.0 - 4.0 * f64::EPSILON, 1.0 + 4.0 * f64::EPSILON);
     if leave < 0.0 || enter * early > leave * late || enter * early > span * late {
@@ -84,7 +85,8 @@ pub(super) fn sweep(
     let fraction = (stretch.from + enter * early).next_down().min(stretch.to);
     let between = passage.between_at(fraction);
     let offset = in_axes_of_a(between);
-    let [on_a, on_b] = boxes.closest(axis, offset, drift, (IMPACT_REST * size).max(16.0 * doubt))?;
+    let enough = passage.rounding + (IMPACT_REST * size).max(16.0 * doubt);
+    let [on_a, on_b] = boxes.closest(axis, offset, drift, enough)?;
     let rounding = if fraction > 0.0 { passage.rounding } else { 0.0 };
     Some(End::Met(Met {
         fraction,

@@ -109,7 +109,8 @@ impl Search<'_> {
             let arm = DVec3::splat(arm * (1.0 + 64.0 * f64::EPSILON) + 64.0 * f64::EPSILON * middle.length());
             (low, high) = (middle - arm, middle + arm);
         }
-        let half = ((high - low) * (0.5 + f64::from(f32::EPSILON))).as_vec3();
+        let rounding = DVec3::splat(self.passage.rounding);
+        let half = (((high - low) * 0.5 + rounding) * (1.0 + 2.0 * f64::from(f32::EPSILON))).as_vec3();
         let mut later = ArrayVec::<u32, MOST_LATER>::new();
         let is_straight = self.passage.is_straight();
         on.ground.read_along((low + high) * 0.5, self.way, half, self.until(), |number, corners| {
@@ -137,7 +138,10 @@ impl Search<'_> {
 
     /// Whether a part may touch a triangle before the first touch so far.
     fn may_meet(&self, placed: &Corners, corners: [Vec3; 3]) -> bool {
-        let is_beside = || self.passage.is_straight() && placed.passes(corners, self.way * self.until());
+        let is_beside = || {
+            self.passage.is_straight()
+                && placed.passes(corners, self.way * self.until(), self.passage.rounding)
+        };
         self.on.is_facing(corners, placed.viewpoint) && !is_beside()
     }
 
@@ -145,7 +149,9 @@ impl Search<'_> {
     /// does not count or another is known that comes before.
     fn lands(&mut self, (part, placed): (&Part, &Corners), (number, corners): (u32, [Vec3; 3])) -> bool {
         let (on, passage) = (self.on, self.passage);
-        let Some(landing) = placed.landing(part, corners, (self.way, self.until())) else { return false };
+        let Some(landing) = placed.landing(part, corners, (self.way, self.until(), passage.rounding)) else {
+            return false;
+        };
         let Some(triangle) = on.ground.triangle(number).map(Shape3::Triangle) else { return false };
         let of_ground = Part::whole(&triangle, &on.basis);
         let [up, foot] = [landing.up, landing.foot].map(|v| on.basis.turn(v));

@@ -24,7 +24,7 @@
 //! 4. shapes stand still, and the origin moves: nothing is placed twice.
 
 use super::advance::{End, Met};
-use super::passage::{Course, Stretch, length};
+use super::passage::{Course, Stretch, length, off_drift};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::simplex::{Corners, nearest_of_all, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
@@ -53,7 +53,7 @@ struct March<'a> {
     a: &'a Solid<'a>,
     b: &'a Solid<'a>,
     drift: DVec3,
-    /// Subtracted from any projection on the way: its error, and both radii.
+    /// Subtracted from any projection on the way: its error, that of poses, and both radii.
     taken: f64,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let (drift, span) = (course.passage.drift, stretch.to - stretch.from);
     let doubt = moment.precision.projection() + IN_SPACE[1] * (f64::EPSILON / 2.0) * length(drift) * span;
     let rest = course.fineness.rest(doubt);
-    let march = March { a, b, drift, taken: course.radii + doubt };
+    let march = March { a, b, drift, taken: course.radii + course.slack + doubt };
     let enough = if course.radii > 0.0 { course.fineness.gap(doubt) } else { 4.0 * rest };
     let mut axis = (stretch.apart - drift * stretch.from).try_normalize()?;
     let (mut done, mut kept, mut is_rough, mut is_near) = (0.0, None, true, false);
@@ -83,7 +83,9 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let mut distance = f64::INFINITY;
     for _ in 0..MAX_STEPS {
         let Shown { corner, gap, closing } = march.shown(axis, done, is_rough);
-        if gap > 0.0 && outlasts(gap, closing, span - done) {
+        // Of a motion along both, up to rounding, the end is as certain as the start.
+        let spared = if closing <= 2.0 * off_drift(drift) { course.slack } else { 0.0 };
+        if gap > 0.0 && outlasts(gap + spared, closing, span - done) {
             return Some(End::Apart);
         }
         is_parted |= gap > 0.0;
@@ -105,7 +107,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
         // Once the origin has moved, the nearest point may be further than before.
         let nearer_than = if step > 0.0 { f64::INFINITY } else { distance };
         distance = simplex.grow((!is_known).then_some(corner), drift * done, nearer_than)?;
-        let is_within = distance - course.radii <= enough;
+        let is_within = distance - course.radii - course.slack <= enough;
         match kept {
             Some(axis) if is_within && course.radii == 0.0 => {
                 return course.reached(stretch, (done, axis, doubt), simplex.points(a, b));
@@ -125,8 +127,7 @@ impl March<'_> {
     /// What an axis shows once `done` of the stretch is done. By rough supports, unless those are not wanted or the gap
     /// is near their error; for a gap far below zero only the corner matters.
     fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
-        // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
-        let closing = axis.dot(self.drift) + 16.0 * f64::EPSILON * length(self.drift);
+        let closing = axis.dot(self.drift) + off_drift(self.drift);
         let taken = self.taken + closing * done;
         let corner = |a: usize, b: usize| ([a, b], self.b.point(b) - self.a.point(a));
         if is_rough {

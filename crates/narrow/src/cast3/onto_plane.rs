@@ -13,7 +13,7 @@
 //!   or a corner, which is left to others. Most of what walks or falls on a floor meets it so.
 
 use super::advance::{End, Met};
-use super::passage::{Passage, length};
+use super::passage::{Passage, length, off_drift};
 use crate::pair3::Part;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::slender::Slender;
@@ -130,8 +130,7 @@ impl<'p> Over<'p> {
             None => plane.lowest_of(self.shape, (&self.placed.0, self.placed.1)),
         };
         let height = plane.height(lowest) - f64::from(self.shape.radius());
-        // A dot product of three terms, a unit normal and a difference of displacements: below 16 units.
-        let off = 16.0 * f64::EPSILON * length(self.passage.drift);
+        let off = off_drift(self.passage.drift);
         Fall { over: self, plane, lowest, height, closing: plane.axis().dot(self.passage.drift), off }
     }
 }
@@ -156,13 +155,16 @@ impl Fall<'_> {
         IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.over.reach + way)
     }
 
+    /// A lower bound on the height, in whatever way poses are rounded.
     fn at_least(&self) -> f64 {
-        self.height - self.doubt(self.over.from)
+        self.height - self.doubt(self.over.from) - self.over.passage.rounding
     }
 
     /// Whether the part certainly comes no nearer, or not down to the plane.
     fn stays_above(&self, until: f64) -> bool {
-        outlasts(self.at_least(), self.closing + self.off, until - self.over.from)
+        // Of a motion along the plane, up to rounding, the end is as certain as the start.
+        let spared = if self.closing <= self.off { self.over.passage.rounding } else { 0.0 };
+        outlasts(self.at_least() + spared, self.closing + self.off, until - self.over.from)
     }
 
     /// A share of the motion before which the part certainly does not touch the plane, and where all of the height but

@@ -40,6 +40,9 @@ pub(super) struct Course<'a> {
     /// Sum of both radii, in metres.
     pub(super) radii: f64,
     pub(super) fineness: Fineness,
+    /// What rounding the poses of moved bodies may add to a gap or take from it, at most, in metres: only a larger gap is
+    /// certain in those poses.
+    pub(super) slack: f64,
     /// Sum of the bounding radii, in metres; a half-space has none.
     size: f64,
     /// Sum of the cores' bounding radii.
@@ -104,9 +107,23 @@ pub(super) fn length(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// What rounding the position of a moved body may add to a gap.
-pub(super) fn rounding_of(pose: &Pose3, displacement: DVec3) -> f64 {
-    f64::EPSILON * (length(pose.position()) + length(displacement))
+/// How far off the speed at which a gap closes may be: a dot product of three terms, a unit normal and a difference of
+/// displacements, below 16 units.
+pub(super) fn off_drift(drift: DVec3) -> f64 {
+    16.0 * f64::EPSILON * length(drift)
+}
+
+/// What rounding the position of a body that moves by up to `way` metres may add to a gap.
+fn rounding_of(pose: &Pose3, way: f64) -> f64 {
+    f64::EPSILON * (length(pose.position()) + way)
+}
+
+/// The same of a body A that moves past a body B at rest, as long as they may touch: that ends once A has come as far
+/// as from one side of B to the other.
+pub(super) fn rounding_past(pair: &Pair3, drift: DVec3) -> f64 {
+    let reach = |shape: &Shape3| f64::from(shape.outer_radius()) + length(shape.center().as_dvec3());
+    let past = length(pair.between) + reach(pair.shape_a) + reach(pair.shape_b);
+    rounding_of(&pair.pose_a, length(drift).min(past))
 }
 
 /// Whether a shape stays where it is as its body turns: a ball about the body's position. It is treated as one that
@@ -118,7 +135,7 @@ fn is_round(shape: &Shape3) -> bool {
 impl Passage {
     /// A moves and B stands still; neither turns.
     pub(super) fn straight(pair: &Pair3, drift: DVec3) -> Self {
-        let rounding = rounding_of(&pair.pose_a, drift);
+        let rounding = rounding_past(pair, drift);
         Self { between: pair.between, drift, bases: pair.bases(), turns: [None; 2], rounding }
     }
 
@@ -132,7 +149,8 @@ impl Passage {
         });
         let moved = |i: usize| match paths[i] {
             DVec3::ZERO => 0.0,
-            path => rounding_of(poses[i], path),
+            path if i == 0 && paths[1] == DVec3::ZERO => rounding_past(pair, path),
+            path => rounding_of(poses[i], length(path)),
         };
         let shapes = [pair.shape_a, pair.shape_b];
         let turn = |i: usize| {
@@ -174,7 +192,8 @@ impl Passage {
             }
         };
         let ((from, radius_a), (to, radius_b)) = (sphere(0), sphere(1));
-        let stretch = Stretch::of_spheres([from, to, self.between], radius_a + radius_b, self.drift, until)?;
+        let radii = (radius_a + radius_b, self.rounding);
+        let stretch = Stretch::of_spheres([from, to, self.between], radii, self.drift, until)?;
         (self.is_straight() || self.may_meet(parts, until)).then_some(stretch)
     }
 
@@ -241,17 +260,18 @@ pub(super) struct Stretch {
 
 impl Stretch {
     /// From where two spheres meet to where they part, given their centres, each from its body's position, and B's
-    /// position less A's. For spheres that pass by, the square of a cross product decides, without root or quotient.
+    /// position less A's; with both radii come what rounding may take from their gap in the poses of moved bodies. For
+    /// spheres that pass by, the square of a cross product decides, without root or quotient.
     pub(super) fn of_spheres(
         [from, to, between]: [DVec3; 3],
-        radii: f64,
+        (radii, rounding): (f64, f64),
         drift: DVec3,
         until: f64,
     ) -> Option<Self> {
         let apart = between + (to - from);
         let doubt =
             64.0 * f64::EPSILON * (radii + length(from) + length(to)) + 8.0 * f64::EPSILON * length(between);
-        let reach = radii + doubt;
+        let reach = radii + rounding + doubt;
         let is_outside = |squared: f64| squared > reach * reach;
         let whole = Self { from: 0.0, to: until, apart, doubt };
         if !is_outside(apart.length_squared()) {
@@ -268,7 +288,7 @@ impl Stretch {
             return None;
         }
         // Slightly wider spheres, so that whatever rounding does, the real ones are apart where these meet and part.
-        let (wide, inverse) = (radii + 4.0 * doubt, 1.0 / pace);
+        let (wide, inverse) = (radii + rounding + 4.0 * doubt, 1.0 / pace);
         let half_chord = (((wide * wide - beside * inverse) * inverse).max(0.0)).sqrt();
         let nearest = ahead * inverse;
         let (first, last) = ((nearest - half_chord).next_down(), nearest + half_chord);
@@ -289,7 +309,11 @@ impl<'a> Course<'a> {
         let size = finite(a.outer_radius()) + finite(b.outer_radius());
         let arms = [0, 1].map(|i| passage.arm(i, &parts[i], cores[i]));
         let fineness = Fineness { gap: IMPACT_GAP * size, rest: IMPACT_REST * size };
-        Self { passage, parts, cores, radii, fineness, size, core_size: (size - radii).max(0.0), arms }
+        let core_size = (size - radii).max(0.0);
+        let mut course = Self { passage, parts, cores, radii, fineness, slack: 0.0, size, core_size, arms };
+        let furthest = passage.between.length() + passage.drift.length();
+        course.slack = passage.rounding + course.turned(furthest);
+        course
     }
 
     /// The same course, with another limit for how near counts as met.
@@ -324,15 +348,18 @@ impl<'a> Course<'a> {
     /// turn, rotations to f32.
     pub(super) fn rounding(&self, fraction: f64, between: DVec3) -> f64 {
         let is_between = fraction > 0.0 && fraction < 1.0;
-        let turned = |i: usize| match self.passage.turns[i] {
-            Some(_) if is_between => match self.parts[i].shape {
-                Shape3::HalfSpace(_) => between.length() + self.arms[1 - i].from_position,
-                _ => self.arms[i].from_position,
-            },
-            _ => 0.0,
+        let turned = if is_between { self.turned(between.length()) } else { 0.0 };
+        (if fraction > 0.0 { self.passage.rounding } else { 0.0 }) + turned
+    }
+
+    /// What rounding rotations to f32 may add to a gap, in metres, for bodies whose positions are `apart`.
+    fn turned(&self, apart: f64) -> f64 {
+        let turned = |i: usize| match (self.passage.turns[i], self.parts[i].shape) {
+            (None, _) => 0.0,
+            (Some(_), Shape3::HalfSpace(_)) => apart + self.arms[1 - i].from_position,
+            (Some(_), _) => self.arms[i].from_position,
         };
-        (if fraction > 0.0 { self.passage.rounding } else { 0.0 })
-            + f64::from(f32::EPSILON) * (turned(0) + turned(1))
+        f64::from(f32::EPSILON) * (turned(0) + turned(1))
     }
 }
 

@@ -289,14 +289,15 @@ impl Corners {
         least - top - 128.0 * f64::EPSILON * (self.lengths_with(&beside.corners) + least.abs())
     }
 
-    /// Whether it certainly misses a triangle while it moves by `way`.
-    pub(crate) fn passes(&self, corners: [Vec3; 3], way: DVec3) -> bool {
+    /// Whether it certainly misses a triangle while it moves by `way`, by more than `rounding` poses may take from a gap,
+    /// in metres.
+    pub(crate) fn passes(&self, corners: [Vec3; 3], way: DVec3, rounding: f64) -> bool {
         let corners = corners.map(|corner| corner.as_dvec3());
         let [a, b, c] = corners;
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
         let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
         let (along, rise) = (self.along(normal, corners), normal.dot(way));
-        let doubt = 16.0 * f64::EPSILON * way.abs().element_sum();
+        let doubt = 16.0 * f64::EPSILON * way.abs().element_sum() + rounding;
         let above = along.part[0] - along.triangle[1] + rise.min(0.0) - doubt;
         let below = along.triangle[0] - along.part[1] - rise.max(0.0) - doubt;
         if above > 0.0 || below > 0.0 {

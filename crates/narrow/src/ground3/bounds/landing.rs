@@ -29,12 +29,12 @@ pub(crate) struct Landing {
 
 impl Corners {
     /// Where a part comes down on the inside of a triangle, if it certainly does so, before it has moved by `until`
-    /// times `way`.
+    /// times `way`. What `rounding` poses may take from a gap, in metres, is left.
     pub(crate) fn landing(
         &self,
         part: &Part,
         corners: [Vec3; 3],
-        (way, until): (DVec3, f64),
+        (way, until, rounding): (DVec3, f64, f64),
     ) -> Option<Landing> {
         let corners = corners.map(|corner| corner.as_dvec3());
         let [a, b, c] = corners;
@@ -44,7 +44,7 @@ impl Corners {
         let doubt = 128.0 * f64::EPSILON * self.lengths_with(&corners);
         let off = 16.0 * f64::EPSILON * way.abs().element_sum();
         let highest = up.dot(b - a).max(up.dot(c - a)).max(0.0);
-        let (height, closing) = (up.dot(foot - a) - highest - doubt, -up.dot(way));
+        let (height, closing) = (up.dot(foot - a) - highest - doubt - rounding, -up.dot(way));
         if height <= 0.0 || closing <= off {
             return None;
         }
