@@ -47,7 +47,12 @@ impl Circle {
 
     /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        point.into().length_squared() <= f64::from(self.radius) * f64::from(self.radius)
+        self.contains_within(point.into(), self.radius.into())
+    }
+
+    /// The same with another radius, in metres, about the same core.
+    pub(crate) fn contains_within(&self, point: DVec2, radius: f64) -> bool {
+        point.length_squared() <= radius * radius
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.

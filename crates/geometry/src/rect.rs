@@ -99,10 +99,14 @@ impl Rect {
 
     /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        let point = point.into();
+        self.contains_within(point.into(), self.radius.into())
+    }
+
+    /// The same with another radius, in metres, about the same core.
+    pub(crate) fn contains_within(&self, point: DVec2, radius: f64) -> bool {
         // `max` of NaN and zero is zero.
         let beyond = (point.abs() - self.half_extents.as_dvec2()).max(DVec2::ZERO);
-        !point.is_nan() && beyond.length_squared() <= f64::from(self.radius) * f64::from(self.radius)
+        !point.is_nan() && beyond.length_squared() <= radius * radius
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.

@@ -145,10 +145,15 @@ impl Capsule2 {
 
     /// Whether the closed shape contains a local point, in metres.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        let (point, [from, to]) = (point.into(), self.segment.ends.map(|end| end.as_dvec2()));
+        self.contains_within(point.into(), self.radius.into())
+    }
+
+    /// The same with another radius, in metres, about the same core.
+    pub(crate) fn contains_within(&self, point: DVec2, radius: f64) -> bool {
+        let [from, to] = self.segment.ends.map(|end| end.as_dvec2());
         let along = to - from;
         let place = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        (point - from - along * place).length_squared() <= f64::from(self.radius) * f64::from(self.radius)
+        (point - from - along * place).length_squared() <= radius * radius
     }
 
     /// The box around the posed shape, grown by `margin` metres and rounded outwards.

@@ -1,10 +1,13 @@
 //! What a shape reports about itself: its AABB, support points, containment, bounding ball.
 
-use asunder_geometry::{Aabb2, Aabb3, Pose2, Pose3, Shape2, Shape3};
+use asunder_geometry::{
+    Aabb2, Aabb3, Capsule2, Circle, Compound2, Polygon, Pose2, Pose3, Rect, Shape2, Shape3,
+};
+use asunder_narrow::{Pair2, Separation2};
 use asunder_tests::cases::Random;
 use asunder_tests::cores::{pieces2, pieces3};
 use asunder_tests::shapes::{Clay, KINDS2, KINDS3};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2};
 
 const ORIGINS: [f64; 5] = [0.0, 1.0, 1e3, 1e7, 9e8];
 const SIZES: [f64; 4] = [1.0, 1e-5, 1e5, 0.1];
@@ -225,4 +228,53 @@ fn furthest_points_of_every_kind_in_the_plane_are_its_own() {
         }
         assert!(shape.support(DVec2::ZERO).is_none() && shape.support(DVec2::NAN).is_none());
     }
+}
+
+/// A part's stored rotation, which is of length one up to f32 rounding, stretches its core and not its radius.
+///
+/// Symptom: a circle in a compound held points that no overlap test found in it, by up to 3e-8 of its radius.
+#[test]
+fn round_parts_hold_what_overlaps_them() {
+    let (mut within, mut beyond, mut stretched) = (0, 0, 0);
+    for seed in 0..4000 {
+        let random = &mut Random::new(seed + 31_000);
+        let size = random.pick(&[0.01, 1.0, 3000.0]);
+        let radius = random.between(0.5, 1.0) * size;
+        let half = Vec2::new(random.between(0.1, 1.0) as f32, random.between(0.1, 1.0) as f32) * size as f32;
+        let shape: Shape2 = match seed % 4 {
+            0 => Circle::new(radius as f32).unwrap().into(),
+            1 => Capsule2::new(-half, half, radius as f32).unwrap().into(),
+            2 => Rect::from_half_extents(half).unwrap().rounded(radius as f32).unwrap().into(),
+            _ => {
+                Polygon::hull_of(&[half, -half, half.perp()]).unwrap().rounded(radius as f32).unwrap().into()
+            }
+        };
+        let pose = Pose2::new(random.vector().truncate() * size, random.rotation2()).unwrap();
+        let length = DVec2::new(pose.rotation().cos().into(), pose.rotation().sin().into()).length();
+        let compound: Shape2 = Compound2::new([(pose, shape.clone())]).unwrap().into();
+        // On the surface, up to a few f32 roundings: around a corner of the core.
+        let core = match seed % 4 {
+            0 => DVec2::ZERO,
+            _ => half.as_dvec2(),
+        };
+        let away = half.as_dvec2().normalize();
+        let shift = f64::from(seed as u32 % 11) - 5.0;
+        let local = pose.turn(core + away * (f64::from(shape.radius()) / length * (1.0 + 1e-8 * shift)));
+        let point = pose.position() + local;
+        let at = Pose2::at(point).unwrap();
+        let dot = Shape2::from(Circle::POINT);
+        let pair = Pair2::new(&compound, &Pose2::IDENTITY, &dot, &at);
+        let Separation2::Measured(found) = pair.separation(f32::INFINITY) else { panic!("no limit") };
+        if f64::from(found.separation).abs() > 1e-12 * size {
+            assert_eq!(
+                compound.contains(point),
+                pair.overlaps(),
+                "seed {seed}: {found:?} {shape:?} {pose:?}"
+            );
+            within += u32::from(pair.overlaps());
+            beyond += u32::from(!pair.overlaps());
+            stretched += u32::from((length - 1.0).abs() > 1e-8);
+        }
+    }
+    assert!(within > 1000 && beyond > 1000 && stretched > 1000, "{within} {beyond} {stretched}");
 }

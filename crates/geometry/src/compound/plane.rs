@@ -85,6 +85,21 @@ impl Part2 {
         self.center
     }
 
+    /// Whether it contains a point in the compound's axes. Its stored rotation stretches the core by its length, which is
+    /// one up to f32 rounding, and not the radius.
+    fn contains(&self, point: DVec2) -> bool {
+        let (local, rotation) = (self.pose.transform_back(point), self.pose.rotation());
+        let length = DVec2::new(rotation.cos().into(), rotation.sin().into()).length();
+        let radius = f64::from(self.shape.radius()) / length;
+        match &self.shape {
+            Shape2::Circle(circle) => circle.contains_within(local, radius),
+            Shape2::Capsule(capsule) => capsule.contains_within(local, radius),
+            Shape2::Rect(rect) => rect.contains_within(local, radius),
+            Shape2::Polygon(polygon) => polygon.contains_within(local, radius),
+            shape => shape.contains(local),
+        }
+    }
+
     /// The box around the part, where the compound is at this pose.
     fn bounds(&self, pose: &Pose2, margin: f32) -> Aabb2 {
         let core = self.shape.core();
@@ -260,7 +275,7 @@ impl Compound2 {
             let outer = f64::from(part.shape.outer_radius()) * (1.0 + 1e-6);
             // Most parts are not near, and need no rotation; NaN is never near.
             let is_near = (point - part.center).length_squared() <= outer * outer + rounding * rounding;
-            is_near && part.shape.contains(part.pose.transform_back(point))
+            is_near && part.contains(point)
         };
         let parts = self.parts();
         if parts.len() < MANY_PARTS {

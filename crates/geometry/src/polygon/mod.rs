@@ -295,7 +295,11 @@ impl Polygon {
     /// Whether the closed shape contains a local point, in metres. Exact where there is no rounding. Cost: linear in
     /// the vertices.
     pub fn contains(&self, point: impl Into<DVec2>) -> bool {
-        let point = point.into();
+        self.contains_within(point.into(), self.radius.into())
+    }
+
+    /// The same with another radius, in metres, about the same core.
+    pub(crate) fn contains_within(&self, point: DVec2, radius: f64) -> bool {
         if !point.is_finite() {
             return false;
         }
@@ -304,12 +308,11 @@ impl Polygon {
         if edges().all(|(from, to)| orient2d(coord(from), coord(to), coord(point)) >= 0.0) {
             return true;
         }
-        let reach = f64::from(self.radius) * f64::from(self.radius);
-        self.radius > 0.0
+        radius > 0.0
             && edges().any(|(from, to)| {
                 let along = to - from;
                 let place = ((point - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-                (point - from - along * place).length_squared() <= reach
+                (point - from - along * place).length_squared() <= radius * radius
             })
     }
 
