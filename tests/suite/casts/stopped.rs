@@ -171,7 +171,7 @@ fn what_all_but_touches_may_turn_away() {
             .map(|half| Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, half, 1.0)).unwrap());
         assert_eq!(pair.impact(&away, &Motion3::STILL), None, "round {round}, {gap} m apart, {half}");
         let stopped = pair.impact(&into, &Motion3::STILL).unwrap();
-        assert!(stopped.fraction < 1e-5 && !stopped.overlapping, "round {round}: {stopped:?}");
+        assert!(stopped.fraction == 0.0 && !stopped.overlapping, "round {round}: {stopped:?}");
         assert!(f64::from(stopped.error) < gap + 1e-7, "round {round}: {stopped:?}");
     }
 }
