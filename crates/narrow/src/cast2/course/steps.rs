@@ -1,10 +1,12 @@
 //! Steps along a motion, each certified: how long the gap between two parts certainly lasts.
 //!
 //! A step aims at a little more than the poses that are reported may be off. Two that turn and start nearer may move away,
-//! and do not end any nearer.
+//! and do not end any nearer: if the axis of the first look shows that they part, they go on from where they have; else
+//! they take small steps, and are stopped where they started once they have come nearer.
 
 use super::{Course, Look, ROUNDED, Touching};
 use crate::counted::count_step;
+use asunder_geometry::glam::DVec2;
 
 /// Rounds after which a cast gives up and reports an impact with the gap that is left. Shapes that graze take some 25
 /// rounds, others 1 to 10.
@@ -68,6 +70,13 @@ impl Course<'_> {
             }
             let Some(look) = look else {
                 let touching = self.too_close(now, axis);
+                if now <= 0.0
+                    && let Some(away) = self.turns_apart(touching.axis)
+                {
+                    (now, axis) = (away, touching.axis);
+                    start = Some((touching, f64::NEG_INFINITY));
+                    continue;
+                }
                 let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);
                 return (!is_parting).then_some(touching);
             };
@@ -84,6 +93,14 @@ impl Course<'_> {
                 return None;
             }
             let is_near = look.least <= self.aim || look.most <= self.enough;
+            if now <= 0.0
+                && is_near
+                && let Some(away) = self.turns_apart(axis)
+            {
+                start = Some((self.settled(&look, now), look.least));
+                now = away;
+                continue;
+            }
             start = match start {
                 _ if !is_near => None,
                 Some((start, level)) if look.least < level - 4.0 * self.precision.projection() => {
@@ -107,6 +124,25 @@ impl Course<'_> {
                 return Some(start.map_or_else(|| self.settled(&look, now), |(start, _)| start));
             }
             now = next;
+        }
+        None
+    }
+
+    /// When two that turn, and all but touch at time zero, are further apart along an axis than a step aims at, having
+    /// come no nearer in between; `None` if it shows no such time.
+    fn turns_apart(&self, axis: DVec2) -> Option<f64> {
+        let least = self.gap(axis, 0.0);
+        if !self.is_turning() || least < -self.slack - 16.0 * self.precision.projection() {
+            return None;
+        }
+        let mut later = self.times[1];
+        for _ in 0..MAX_TRIES {
+            let gap = self.gap(axis, later);
+            // In between, at h, a gap is below the line between both by no more than bend h (later - h) / 2.
+            if gap > self.aim && gap - least >= 0.5 * self.bend * later * later * (1.0 + 1e-9) {
+                return Some(later);
+            }
+            later *= 0.25;
         }
         None
     }
