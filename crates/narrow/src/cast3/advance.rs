@@ -37,10 +37,10 @@
 //! but touch at the start, and the axis between their nearest points does not show that they move apart, a support
 //! search for each face and some of the edges.
 
-use super::passage::{Course, Moment, length, off_drift};
+use super::passage::{Course, Moment, length, off_drift, outlasts_rounded};
 use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
-use crate::precision::{closed_after, outlasts};
+use crate::precision::closed_after;
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
@@ -279,9 +279,8 @@ impl Course<'_> {
         let rest = self.fineness.rest(moment.precision.projection());
         let aim = self.slack + rest;
         if moment.spins == [DVec3::ZERO; 2] {
-            // Of a motion along both, up to rounding, the end is as certain as the start.
-            let spared = if closing <= 2.0 * off_drift(self.passage.drift) { self.slack } else { 0.0 };
-            if outlasts(found.at_least - self.slack + spared, closing, span) {
+            let gap = (found.at_least - self.slack, self.slack);
+            if outlasts_rounded(gap, closing, (self.passage.drift, span)) {
                 return Step::Free;
             }
             let step = closed_after(found.at_least - aim, closing);

@@ -24,11 +24,11 @@
 //! 4. shapes stand still, and the origin moves: nothing is placed twice.
 
 use super::advance::{End, Met};
-use super::passage::{Course, Stretch, length, off_drift};
+use super::passage::{Course, Stretch, length, off_drift, outlasts_rounded};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::simplex::{Corners, nearest_of_all, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
-use crate::precision::{IN_SPACE, closed_after, outlasts};
+use crate::precision::{IN_SPACE, closed_after};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
@@ -83,9 +83,7 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let mut distance = f64::INFINITY;
     for _ in 0..MAX_STEPS {
         let Shown { corner, gap, closing } = march.shown(axis, done, is_rough);
-        // Of a motion along both, up to rounding, the end is as certain as the start.
-        let spared = if closing <= 2.0 * off_drift(drift) { course.slack } else { 0.0 };
-        if gap > 0.0 && outlasts(gap + spared, closing, span - done) {
+        if gap > 0.0 && outlasts_rounded((gap, course.slack), closing, (drift, span - done)) {
             return Some(End::Apart);
         }
         is_parted |= gap > 0.0;

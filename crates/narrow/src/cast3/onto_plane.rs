@@ -13,11 +13,11 @@
 //!   or a corner, which is left to others. Most of what walks or falls on a floor meets it so.
 
 use super::advance::{End, Met};
-use super::passage::{Passage, length, off_drift};
+use super::passage::{Passage, length, off_drift, outlasts_rounded};
 use crate::pair3::Part;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::slender::Slender;
-use crate::precision::{IN_SPACE, closed_after, outlasts};
+use crate::precision::{IN_SPACE, closed_after};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::IMPACT_REST;
 use asunder_geometry::{Basis3, Cuboid, Shape3};
@@ -162,9 +162,9 @@ impl Fall<'_> {
 
     /// Whether the part certainly comes no nearer, or not down to the plane.
     fn stays_above(&self, until: f64) -> bool {
-        // Of a motion along the plane, up to rounding, the end is as certain as the start.
-        let spared = if self.closing <= self.off { self.over.passage.rounding } else { 0.0 };
-        outlasts(self.at_least() + spared, self.closing + self.off, until - self.over.from)
+        let Over { passage, from, .. } = self.over;
+        let gap = (self.at_least(), passage.rounding);
+        outlasts_rounded(gap, self.closing + self.off, (passage.drift, until - from))
     }
 
     /// A share of the motion before which the part certainly does not touch the plane, and where all of the height but
