@@ -43,6 +43,13 @@ pub(crate) fn length_at_most(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
+/// How far off the speed at which a motion closes a gap may be: a dot product of three terms, a unit normal and a
+/// displacement or a difference of two, below 16 units.
+#[inline]
+pub(crate) fn off_closing(way: DVec3) -> f64 {
+    16.0 * f64::EPSILON * length_at_most(way)
+}
+
 /// How much of a motion closes a gap, where all of it would close `closing` metres: never more, whatever the rounding.
 #[inline]
 pub(crate) fn closed_after(gap: f64, closing: f64) -> f64 {

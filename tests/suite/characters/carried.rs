@@ -18,50 +18,52 @@ fn spun(steps: u32) -> Quat {
     Quat::from_xyzw(0.0, sine(half) as f32, 0.0, cosine(half) as f32)
 }
 
-#[test]
-fn the_foot_goes_where_its_place_on_the_body_goes() {
-    let random = &mut Random::new(9100);
-    for round in 0..2000 {
-        let far = random.pick(&[1.0, 100.0, 1e6]);
-        let (then, now) = (
-            Pose3::new(random.vector() * far, random.quaternion()).unwrap(),
-            Pose3::new(random.vector() * far, random.quaternion()).unwrap(),
-        );
-        let mut world = World3::new();
-        let body = world.insert(block().at(then));
-        let point = then.transform(random.vector());
-        let footing = world.footing(&Obstacle3 { body, normal: Vec3::Y, point, part: 0 }).unwrap();
-        assert_eq!((footing.body, footing.pose, footing.point), (body, then, point));
-        let hero = Pose3::new(point + random.vector(), random.quaternion()).unwrap();
-        world.set_pose(body, now).unwrap();
-        let carried = world.carried(&footing, &hero);
-        let expected = hero.position() + now.transform(then.transform_back(point)) - point;
-        assert!(carried.same_rotation(&hero));
-        assert!((carried.position() - expected).length() <= 1e-14 * far + 1e-15, "round {round}");
-    }
+/// The same in either dimension: how a vector and a rotation are made, and a body.
+macro_rules! the_foot_goes_where_its_place_goes {
+    ($name:ident, $World:ident, $Pose:ident, $Obstacle:ident, $vector:expr, $rotation:expr, $body:expr) => {
+        #[test]
+        fn $name() {
+            let random = &mut Random::new(9100);
+            for round in 0..2000 {
+                let far = random.pick(&[1.0, 100.0, 1e6]);
+                let [then, now] =
+                    [(); 2].map(|()| $Pose::new($vector(random) * far, $rotation(random)).unwrap());
+                let mut world = $World::new();
+                let body = world.insert($body.at(then));
+                let point = then.transform($vector(random));
+                let ground = $Obstacle { body, normal: Default::default(), point, part: 0 };
+                let footing = world.footing(&ground).unwrap();
+                assert_eq!((footing.body, footing.pose, footing.point), (body, then, point));
+                let hero = $Pose::new(point + $vector(random), $rotation(random)).unwrap();
+                world.set_pose(body, now).unwrap();
+                let carried = world.carried(&footing, &hero);
+                let expected = hero.position() + now.transform(then.transform_back(point)) - point;
+                assert!(carried.same_rotation(&hero));
+                assert!((carried.position() - expected).length() <= 1e-14 * far + 1e-15, "round {round}");
+            }
+        }
+    };
 }
 
-#[test]
-fn the_foot_goes_where_its_place_on_the_body_goes_in_the_plane() {
-    let random = &mut Random::new(9200);
-    for round in 0..2000 {
-        let far = random.pick(&[1.0, 100.0, 1e6]);
-        let (then, now) = (
-            Pose2::new(random.vector().truncate() * far, random.rotation2()).unwrap(),
-            Pose2::new(random.vector().truncate() * far, random.rotation2()).unwrap(),
-        );
-        let mut world = World2::new();
-        let body = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE).unwrap()).at(then));
-        let point = then.transform(random.vector().truncate());
-        let footing = world.footing(&Obstacle2 { body, normal: Vec2::Y, point, part: 0 }).unwrap();
-        let hero = Pose2::new(point + random.vector().truncate(), random.rotation2()).unwrap();
-        world.set_pose(body, now).unwrap();
-        let carried = world.carried(&footing, &hero);
-        let expected = hero.position() + now.transform(then.transform_back(point)) - point;
-        assert!(carried.same_rotation(&hero));
-        assert!((carried.position() - expected).length() <= 1e-14 * far + 1e-15, "round {round}");
-    }
-}
+the_foot_goes_where_its_place_goes!(
+    the_foot_goes_where_its_place_on_the_body_goes,
+    World3,
+    Pose3,
+    Obstacle3,
+    Random::vector,
+    Random::quaternion,
+    block()
+);
+
+the_foot_goes_where_its_place_goes!(
+    the_foot_goes_where_its_place_on_the_body_goes_in_the_plane,
+    World2,
+    Pose2,
+    Obstacle2,
+    |random: &mut Random| random.vector().truncate(),
+    Random::rotation2,
+    Collider2::new(Rect::from_half_extents(Vec2::ONE).unwrap())
+);
 
 /// Rounding would let the character creep on a lift that shuttles for hours.
 #[test]

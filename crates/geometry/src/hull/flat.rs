@@ -53,13 +53,12 @@ impl Hull {
         let all: Vec<u32> = (0..count).collect();
         let mut corners = planar_hull(&cloud.points, &all, [0, 1, third]);
         corners.sort_unstable();
-        Self::flat_around(cloud, [corners[0], corners[1], corners[2]])
+        Self::flat_around(cloud, &corners, [corners[0], corners[1], corners[2]])
     }
 
-    /// The flat hull of a coplanar cloud, with the orientation of a triangle of its points.
-    pub(super) fn flat_around(cloud: &Cloud, triangle: [u32; 3]) -> Result<Self, HullError> {
-        let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
-        let around = planar_hull(&cloud.points, &all, triangle);
+    /// The flat hull of some points of a coplanar cloud, with the orientation of a triangle of them.
+    pub(super) fn flat_around(cloud: &Cloud, some: &[u32], triangle: [u32; 3]) -> Result<Self, HullError> {
+        let around = planar_hull(&cloud.points, some, triangle);
         if around.len() > MAX_HULL_VERTICES {
             return Err(HullError::TooManyVertices { at_least: around.len() });
         }

@@ -116,7 +116,8 @@ impl Hull {
         if is_collinear(&cloud.points, corners) {
             return Err(StoredHullError::OutOfOrder);
         }
-        Ok(Self::flat_around(cloud, corners)?)
+        let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
+        Ok(Self::flat_around(cloud, &all, corners)?)
     }
 
     fn restored_solid(

@@ -37,10 +37,10 @@
 //! but touch at the start, and the axis between their nearest points does not show that they move apart, a support
 //! search for each face and some of the edges.
 
-use super::passage::{Course, Moment, length, off_drift, outlasts_rounded};
+use super::passage::{Course, Moment, length, outlasts_rounded};
 use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
-use crate::precision::closed_after;
+use crate::precision::{closed_after, off_closing};
 use asunder_geometry::Shape3;
 use asunder_geometry::glam::DVec3;
 
@@ -232,7 +232,7 @@ impl Course<'_> {
 
     /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
     fn closing(&self, axis: DVec3) -> f64 {
-        axis.dot(self.passage.drift) + off_drift(self.passage.drift)
+        axis.dot(self.passage.drift) + off_closing(self.passage.drift)
     }
 
     /// The longest step by the axis that was found, turning along with whichever of the `carriers`; `None` if one of

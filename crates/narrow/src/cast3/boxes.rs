@@ -70,9 +70,9 @@ pub(super) fn sweep(
     let reach = size + length(shift_a) + length(shift_b) + length(between) + way;
     let doubt = IN_SPACE[1] * (f64::EPSILON / 2.0) * reach;
     let drift = basis_a.turn_back(passage.drift);
-    let slack = 1e-10 * size / pace;
+    let later = 1e-10 * size / pace;
     let (enter, leave, axis) =
-        boxes.slabs(in_axes_of_a(between), drift, doubt + passage.rounding).latest(slack);
+        boxes.slabs(in_axes_of_a(between), drift, doubt + passage.rounding).latest(later);
     // A quotient and a product: below four units.
     let (early, late) = (1.0 - 4.0 * f64::EPSILON, 1.0 + 4.0 * f64::EPSILON);
     if leave < 0.0 || enter * early > leave * late || enter * early > span * late {
@@ -103,15 +103,15 @@ struct Slabs {
 }
 
 impl Slabs {
-    /// The latest entry, the earliest exit, and the entry's axis: a face's, unless an edge axis is later by `slack`.
-    fn latest(&self, slack: f64) -> (f64, f64, usize) {
+    /// The latest entry, the earliest exit, and the entry's axis: a face's, unless an edge axis is later by `later`.
+    fn latest(&self, later: f64) -> (f64, f64, usize) {
         let (mut enter, mut axis, mut leave) = (f64::NEG_INFINITY, 0, f64::INFINITY);
         for lane in 0..6 {
             let is_later = self.enter[lane] > enter;
             axis = if is_later { lane } else { axis };
             enter = if is_later { self.enter[lane] } else { enter };
         }
-        let mut least = enter + slack;
+        let mut least = enter + later;
         for lane in 6..LANES {
             let is_later = self.enter[lane] > least;
             axis = if is_later { lane } else { axis };

@@ -24,11 +24,11 @@
 //! 4. shapes stand still, and the origin moves: nothing is placed twice.
 
 use super::advance::{End, Met};
-use super::passage::{Course, Stretch, length, off_drift, outlasts_rounded};
+use super::passage::{Course, Stretch, length, outlasts_rounded};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::simplex::{Corners, nearest_of_all, nearest_to_origin};
 use crate::polyhedron::solid::Solid;
-use crate::precision::{IN_SPACE, closed_after};
+use crate::precision::{IN_SPACE, closed_after, off_closing};
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::DVec3;
 
@@ -125,7 +125,7 @@ impl March<'_> {
     /// What an axis shows once `done` of the stretch is done. By rough supports, unless those are not wanted or the gap
     /// is near their error; for a gap far below zero only the corner matters.
     fn shown(&self, axis: DVec3, done: f64, is_rough: bool) -> Shown {
-        let closing = axis.dot(self.drift) + off_drift(self.drift);
+        let closing = axis.dot(self.drift) + off_closing(self.drift);
         let taken = self.taken + closing * done;
         let corner = |a: usize, b: usize| ([a, b], self.b.point(b) - self.a.point(a));
         if is_rough {

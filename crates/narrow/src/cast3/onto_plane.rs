@@ -13,11 +13,11 @@
 //!   or a corner, which is left to others. Most of what walks or falls on a floor meets it so.
 
 use super::advance::{End, Met};
-use super::passage::{Passage, length, off_drift, outlasts_rounded};
+use super::passage::{Passage, length, outlasts_rounded};
 use crate::pair3::Part;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::slender::Slender;
-use crate::precision::{IN_SPACE, closed_after};
+use crate::precision::{IN_SPACE, closed_after, off_closing};
 use asunder_geometry::glam::DVec3;
 use asunder_geometry::tolerance::IMPACT_REST;
 use asunder_geometry::{Basis3, Cuboid, Shape3};
@@ -130,7 +130,7 @@ impl<'p> Over<'p> {
             None => plane.lowest_of(self.shape, (&self.placed.0, self.placed.1)),
         };
         let height = plane.height(lowest) - f64::from(self.shape.radius());
-        let off = off_drift(self.passage.drift);
+        let off = off_closing(self.passage.drift);
         Fall { over: self, plane, lowest, height, closing: plane.axis().dot(self.passage.drift), off }
     }
 }

@@ -6,7 +6,7 @@ use crate::pair3::{Pair3, Part};
 use crate::polyhedron::closest::Placed;
 use crate::polyhedron::half_space::Plane;
 use crate::polyhedron::solid::Solid;
-use crate::precision::{IN_SPACE, Precision, outlasts};
+use crate::precision::{IN_SPACE, Precision, off_closing, outlasts};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::{IMPACT_GAP, IMPACT_REST};
 use asunder_geometry::{Basis3, Core3, Motion3, Pose3, Shape3, Turn3};
@@ -21,7 +21,7 @@ pub(super) struct Passage {
     pub(super) bases: [Basis3; 2],
     /// How they turn; `None` for a body that does not, and for a ball about its body's position.
     pub(super) turns: [Option<Turn3>; 2],
-    /// What rounding the positions of moved bodies may add to a gap.
+    /// What rounding the positions of moved bodies may add to a gap or take from it.
     pub(super) rounding: f64,
 }
 
@@ -107,16 +107,10 @@ pub(super) fn length(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// How far off the speed at which a gap closes may be: a dot product of three terms, a unit normal and a difference of
-/// displacements, below 16 units.
-pub(super) fn off_drift(drift: DVec3) -> f64 {
-    16.0 * f64::EPSILON * length(drift)
-}
-
 /// Whether a gap, less the slack, certainly outlasts some of a straight motion, all of which would close `closing` metres
 /// at most. Of a motion along both, up to rounding, the end is as certain as the start: it uses up none of the slack.
 pub(super) fn outlasts_rounded((gap, slack): (f64, f64), closing: f64, (drift, span): (DVec3, f64)) -> bool {
-    let spared = if closing <= 2.0 * off_drift(drift) { slack } else { 0.0 };
+    let spared = if closing <= 2.0 * off_closing(drift) { slack } else { 0.0 };
     outlasts(gap + spared, closing, span)
 }
 

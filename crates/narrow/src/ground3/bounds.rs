@@ -21,6 +21,7 @@ mod tests;
 use super::contact::span_of;
 use super::near::{OnGround, Viewpoint, grown_around};
 use crate::pair3::Part;
+use crate::precision::off_closing;
 use arrayvec::ArrayVec;
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::{Aabb3, Shape3};
@@ -297,7 +298,7 @@ impl Corners {
         // Any axis proves what all corners show along it; so it need not be the normal to the last bit.
         let Some(normal) = (b - a).cross(c - a).try_normalize() else { return false };
         let (along, rise) = (self.along(normal, corners), normal.dot(way));
-        let doubt = 16.0 * f64::EPSILON * way.abs().element_sum() + rounding;
+        let doubt = off_closing(way) + rounding;
         let above = along.part[0] - along.triangle[1] + rise.min(0.0) - doubt;
         let below = along.triangle[0] - along.part[1] - rise.max(0.0) - doubt;
         if above > 0.0 || below > 0.0 {

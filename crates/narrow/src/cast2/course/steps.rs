@@ -82,14 +82,8 @@ impl Course<'_> {
             };
             axis = look.axis;
             let rest = self.times[1] - now;
-            // Shapes that count as touching, and move apart, get no nearer than they are.
-            let is_parting =
-                look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(axis, 0.0);
             let gives_up = round == MAX_ROUNDS;
-            if is_parting
-                || look.least > self.slack && self.keeps_apart(&look, now, rest)
-                || gives_up && self.circles_pass(&look, now)
-            {
+            if self.is_over(&look, now, rest) || gives_up && self.circles_pass(&look, now) {
                 return None;
             }
             let is_near = look.least <= self.aim || look.most <= self.enough;
@@ -126,6 +120,14 @@ impl Course<'_> {
             now = next;
         }
         None
+    }
+
+    /// Whether a look shows that they do not touch any more.
+    fn is_over(&self, look: &Look, now: f64, rest: f64) -> bool {
+        // Shapes that count as touching, and move apart, get no nearer than they are.
+        let is_parting =
+            look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(look.axis, 0.0);
+        is_parting || look.least > self.slack && self.keeps_apart(look, now, rest)
     }
 
     /// When two that turn, and all but touch at time zero, are further apart along an axis than a step aims at, having

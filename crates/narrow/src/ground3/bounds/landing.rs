@@ -11,7 +11,7 @@
 
 use super::{Corners, Extent};
 use crate::pair3::Part;
-use crate::precision::closed_after;
+use crate::precision::{closed_after, off_closing};
 use asunder_geometry::glam::{DVec3, Vec3};
 use asunder_geometry::tolerance::IMPACT_REST;
 
@@ -42,7 +42,7 @@ impl Corners {
         let up = if normal.dot(way) < 0.0 { normal } else { -normal };
         let foot = self.lowest(part, up)? - up * f64::from(part.shape.radius());
         let doubt = 128.0 * f64::EPSILON * self.lengths_with(&corners);
-        let off = 16.0 * f64::EPSILON * way.abs().element_sum();
+        let off = off_closing(way);
         let highest = up.dot(b - a).max(up.dot(c - a)).max(0.0);
         let (height, closing) = (up.dot(foot - a) - highest - doubt - rounding, -up.dot(way));
         if height <= 0.0 || closing <= off {
