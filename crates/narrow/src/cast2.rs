@@ -116,6 +116,8 @@ impl Pair2<'_> {
     /// - The answer refers to the poses that [`Motion2::pose_at`] returns: at no fraction before the impact's do they
     ///   touch, and there they are at most `error` apart. If a body turns, and is not a circle about its position,
     ///   `error` is no less than 1.2e-7 of its arm.
+    /// - Shapes that are nearer than that at the start may move apart or along each other, and poses on the way may then
+    ///   overlap by rounding. If they move towards each other, the fraction is 0.
     /// - If many rounds bring the shapes no nearer, as when they graze each other while they turn, the fraction is that
     ///   of the last round, and `error` the gap that is left there.
     /// - Two half-planes of which one turns touch at once.

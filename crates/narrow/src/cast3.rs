@@ -32,6 +32,7 @@ mod ground;
 mod legs;
 mod march;
 mod onto_plane;
+mod parting;
 mod passage;
 mod ray;
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::finite;
 use super::moving::displacement;
 use asunder::{Collider3, Filter3, World3};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Compound3, Cuboid, Motion3, Pose3, Shape3, Sphere};
+use asunder_geometry::{Compound3, Cuboid, HalfSpace, Motion3, Pose3, Shape3, Sphere};
 use asunder_narrow::{Impact3, Pair3, Separation3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{KINDS3, pair3};
@@ -146,15 +146,17 @@ fn no_door_sweeps_through_a_crate_far_out() {
 
 /// What was stopped, and is then moved and turned apart by a motion along which the gap only grows at first, goes on.
 ///
-/// Symptom: nearly all such motions had an impact at their start where the first one had left no more than rounding.
+/// Symptom: nearly all such motions had an impact at their start where the first one had left no more than rounding; then
+/// half of those of two cuboids, since no axis that is fixed or turns along with either shows that edges part.
 #[test]
 fn what_was_stopped_may_turn_away() {
-    let (mut parting, mut held) = (0, 0);
+    let (mut parting, mut held) = ([0; 2], [0; 2]);
     for seed in 0..12_000 {
         let mut random = Random::new(seed + 99_000);
         let random = &mut random;
-        // No half-space, ground or compound.
-        let [a, b] = [(); 2].map(|()| random.shape3());
+        // No half-space, ground or compound; cuboids stop where no more than rounding is left.
+        let are_cuboids = seed % 3 == 0;
+        let [a, b] = [(); 2].map(|()| if are_cuboids { random.cuboid() } else { random.shape3() });
         let size = finite(a.outer_radius()) + finite(b.outer_radius());
         let from_a = Pose3::new(random.vector(), random.quaternion()).unwrap();
         let away = random.direction() * (1.5 * size);
@@ -173,12 +175,64 @@ fn what_was_stopped_may_turn_away() {
         }
         let gaps = [0.0, 1e-5, 1e-4, 1e-3, 1e-2].map(|at| next.from(at).gap());
         if gaps.windows(2).all(|two| two[1] >= two[0]) && gaps[4] > 1e-6 * size {
-            parting += 1;
-            held += usize::from(next.impact().is_some_and(|impact| impact.fraction == 0.0));
+            let kind = usize::from(are_cuboids);
+            parting[kind] += 1;
+            held[kind] += usize::from(next.impact().is_some_and(|impact| impact.fraction == 0.0));
         }
     }
     // Some part too slowly beside how fast they turn for an axis to show it.
-    assert!(parting > 1000 && held * 20 <= parting, "{held} of {parting} held");
+    let are_free = parting.iter().zip(&held).all(|(parting, held)| *parting > 1000 && held * 200 <= *parting);
+    assert!(are_free, "{held:?} of {parting:?} held");
+}
+
+/// What is as near as rounding is stopped by what it moves into, however little it turns.
+///
+/// Symptom: three in four such motions into a half-space led through it. Cause: the normals of the other's faces were
+/// taken for axes of the half-space, which has only its own.
+#[test]
+fn what_all_but_touches_is_stopped_as_it_turns_in() {
+    let mut tried = [0; 2];
+    for seed in 0..6000 {
+        let mut random = Random::new(seed + 31_000);
+        let random = &mut random;
+        let is_plane = seed % 2 == 0;
+        let plane = Shape3::from(HalfSpace::new(random.direction().as_vec3()).unwrap());
+        let [a, b] = [random.shape3(), if is_plane { plane } else { random.shape3() }];
+        let from_b = Pose3::new(random.vector(), random.quaternion()).unwrap();
+        let towards = match &b {
+            Shape3::HalfSpace(half_space) => from_b.turn(half_space.unit_normal()),
+            _ => random.direction(),
+        };
+        let aside = towards.cross(random.vector()) * 3.0;
+        let out = from_b.position() + towards * 6.0 + if is_plane { aside } else { DVec3::ZERO };
+        let from_a = Pose3::new(out, random.quaternion()).unwrap();
+        let Some(impact) = Pair3::new(&a, &from_a, &b, &from_b).cast(towards.as_vec3() * -9.0) else {
+            continue;
+        };
+        let near = from_a.shifted((towards.as_vec3() * -9.0).as_dvec3() * impact.fraction).unwrap();
+        let way = impact.normal.as_dvec3();
+        let Separation3::Measured(left) = Pair3::new(&a, &near, &b, &from_b).separation(1.0) else {
+            continue;
+        };
+        let gap = random.pick(&[1e-15, 1e-14, 1e-13, 1e-12, 1e-10]);
+        let near = near.shifted(way * (f64::from(left.separation) - random.between(0.0, gap))).unwrap();
+        let [x, y, z, w] = near.rotation().to_array();
+        let turn = random.vector() * 1e-3;
+        let to = Quat::from_xyzw(x + turn.x as f32, y + turn.y as f32, z + turn.z as f32, w);
+        let into = way + random.vector() * 0.3;
+        let ride = Ride {
+            shapes: [&a, &b],
+            from: [near, from_b],
+            motions: [Motion3::new(into, to).unwrap(), Motion3::STILL],
+        };
+        if ride.at(0.0).overlaps() || into.dot(way) < 0.5 {
+            continue;
+        }
+        tried[usize::from(is_plane)] += 1;
+        let found = ride.impact();
+        assert!(found.is_some_and(|found| found.fraction < 1e-6), "seed {seed}, {gap}: {found:?}");
+    }
+    assert!(tried.iter().all(|&tried| tried > 1000), "{tried:?}");
 }
 
 /// What is nearer than its rounding may turn away, and comes no nearer by turning in: else a body that a turn brought to

@@ -3,6 +3,7 @@
 mod again;
 mod landing;
 mod meeting;
+mod parting;
 mod steps;
 mod wheel;
 

@@ -53,10 +53,6 @@ const PATIENT: usize = 16;
 /// Chords after which a step is good enough.
 const MAX_CHORDS: usize = 6;
 
-/// Sine of the angle by which an axis between points may be off square to an edge and still be made so: far more than
-/// rounding makes of it.
-const TILTED: f64 = 1e-3;
-
 /// Share of their gap that a step leaves at least to two that are nearer than the slack: the less, the sooner those that
 /// turn away get away.
 const LEFT: f64 = 1.0 / 16.0;
@@ -116,20 +112,29 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         if found.at_least < kept {
             (found.at_least, found.normal) = (kept, towards);
         }
+        let is_near = at_most <= course.slack + course.fineness.gap(doubt);
+        let may_part = fraction == 0.0 && is_near && !passage.is_straight();
+        if may_part {
+            (found.normal, found.at_least) = course.sharpest(&moment, &found);
+        }
         let here = course.met(&moment, &found, (fraction, gap));
+        if may_part && let Some((away, axis)) = course.turns_apart(&moment, &found, until) {
+            start = Some((here, f64::NEG_INFINITY));
+            (fraction, towards, kept) = (away, axis, f64::NEG_INFINITY);
+            continue;
+        }
         if found.at_least <= 0.0 {
             if fraction > 0.0 {
-                return End::Met(here);
+                return End::Met(start.map_or(here, |(start, _)| start));
             }
             let (least, normal) = (-4.0 * doubt, found.normal);
             // An overlap beyond what an axis may be off by needs no test of features; without a bound, it does.
             let is_slight =
                 found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
             let is_parting = found.at_least > least && course.parts_along(normal, until)
-                || is_slight && course.features_part(&moment, normal, least, until);
+                || is_slight && course.features_part(&moment, &found, least, until);
             return End::Unclear(here, is_parting);
         }
-        let is_near = at_most <= course.slack + course.fineness.gap(doubt);
         start = match start {
             _ if !is_near => None,
             Some((start, level)) if found.at_least < level - 4.0 * doubt => return End::Met(start),
@@ -152,7 +157,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         fraction = next;
     }
     match met {
-        Some(met) if !course.rounds_pass(&met, until) => End::Met(met),
+        Some(met) if !course.rounds_pass(&met, until) => End::Met(start.map_or(met, |(start, _)| start)),
         _ => End::Apart,
     }
 }
@@ -163,39 +168,6 @@ impl Course<'_> {
         let [on_a, on_b] = found.points;
         let anchors = [on_a + found.normal * radius(0), on_b - moment.between - found.normal * radius(1)];
         Met { fraction, gap: gap.max(0.0), normal: found.normal, anchors }
-    }
-
-    /// Whether the gap along an axis never shrinks before the limit, however fast bodies turn.
-    fn parts_along(&self, axis: DVec3, until: f64) -> bool {
-        let mut pace = self.closing(axis);
-        for ((turn, part), arm) in self.passage.turns.iter().zip(&self.parts).zip(&self.arms) {
-            let Some(turn) = turn else { continue };
-            if let Shape3::HalfSpace(_) = part.shape {
-                return false;
-            }
-            pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
-        }
-        pace <= 0.0
-    }
-
-    /// Whether the normal of a face, or an axis made square to an edge, shows a gap of at least `least` that never
-    /// shrinks before the limit. An axis between nearest points is off by the rounding of the longer lengths over the
-    /// shorter: it may show none of a small body's gap from a floor some thousand times as large.
-    fn features_part(&self, moment: &Moment, normal: DVec3, least: f64, until: f64) -> bool {
-        let least = least + self.radii + moment.precision.projection();
-        let parts = |axis: DVec3| self.parts_along(axis, until) && moment.gap_along(axis) > least;
-        let of = |placed: &Placed, sign: f64| {
-            let Placed::Core(solid) = placed else { return false };
-            let parts_from_edge = |&edge: &u16| {
-                let along = solid.edge_direction(edge.into());
-                let (off, squared) = (normal.dot(along), along.length_squared());
-                off * off <= TILTED * TILTED * squared
-                    && (normal - along * (off / squared)).try_normalize().is_some_and(parts)
-            };
-            (0..solid.face_count()).any(|face| parts(solid.normal(face) * sign))
-                || solid.topology.edges().iter().any(parts_from_edge)
-        };
-        of(&moment.a, 1.0) || of(&moment.b, -1.0)
     }
 
     /// Whether all that a body may sweep by turning about its axis stays clear along the axis of a meeting, from then
@@ -231,7 +203,7 @@ impl Course<'_> {
     }
 
     /// An upper bound on the speed at which the gap along an axis closes, without what turning adds.
-    fn closing(&self, axis: DVec3) -> f64 {
+    pub(super) fn closing(&self, axis: DVec3) -> f64 {
         axis.dot(self.passage.drift) + off_closing(self.passage.drift)
     }
 
@@ -358,7 +330,7 @@ impl Course<'_> {
     }
 
     /// A bound on any vertex' acceleration along an axis, from here until `span` later.
-    fn bend(&self, moment: &Moment, carrier: Carrier, [fraction, span]: [f64; 2]) -> f64 {
+    pub(super) fn bend(&self, moment: &Moment, carrier: Carrier, [fraction, span]: [f64; 2]) -> f64 {
         let bounds = self.passage.turns.map(|turn| match turn {
             Some(turn) => turn.bounds_within(fraction, fraction + span),
             None => [0.0; 2],

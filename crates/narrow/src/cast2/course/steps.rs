@@ -6,7 +6,6 @@
 
 use super::{Course, Look, ROUNDED, Touching};
 use crate::counted::count_step;
-use asunder_geometry::glam::DVec2;
 
 /// Rounds after which a cast gives up and reports an impact with the gap that is left. Shapes that graze take some 25
 /// rounds, others 1 to 10.
@@ -68,25 +67,32 @@ impl Course<'_> {
             if now <= 0.0 && look.as_ref().is_none_or(|look| look.least <= self.slack) {
                 self.doubts_start.set(true);
             }
-            let Some(look) = look else {
+            let Some(mut look) = look else {
                 let touching = self.too_close(now, axis);
+                let beside = self.sharpest(touching.axis, now).0;
                 if now <= 0.0
-                    && let Some(away) = self.turns_apart(touching.axis)
+                    && let Some(away) = self.turns_apart(beside)
                 {
-                    (now, axis) = (away, touching.axis);
+                    (now, axis) = (away, beside);
                     start = Some((touching, f64::NEG_INFINITY));
                     continue;
                 }
                 let is_parting = now <= 0.0 && self.parts(touching.axis, ROUNDED);
                 return (!is_parting).then_some(touching);
             };
+            let is_near = look.least <= self.aim || look.most <= self.enough;
+            if now <= 0.0 && is_near {
+                let (sharper, least) = self.sharpest(look.axis, now);
+                if least > look.least {
+                    look = Look { axis: sharper, least, ..look };
+                }
+            }
             axis = look.axis;
             let rest = self.times[1] - now;
             let gives_up = round == MAX_ROUNDS;
             if self.is_over(&look, now, rest) || gives_up && self.circles_pass(&look, now) {
                 return None;
             }
-            let is_near = look.least <= self.aim || look.most <= self.enough;
             if now <= 0.0
                 && is_near
                 && let Some(away) = self.turns_apart(axis)
@@ -106,7 +112,7 @@ impl Course<'_> {
                 start => start,
             };
             if is_near && start.is_none() || gives_up {
-                return Some(self.settled(&look, now));
+                return Some(start.map_or_else(|| self.settled(&look, now), |(start, _)| start));
             }
             // Those that start nearer than the aim may come nearer yet for a while, if only they do not stay so.
             let aim = if look.least > self.aim { self.aim } else { look.least * LEFT };
@@ -128,25 +134,6 @@ impl Course<'_> {
         let is_parting =
             look.least > -self.slack - 16.0 * self.precision.projection() && self.parts(look.axis, 0.0);
         is_parting || look.least > self.slack && self.keeps_apart(look, now, rest)
-    }
-
-    /// When two that turn, and all but touch at time zero, are further apart along an axis than a step aims at, having
-    /// come no nearer in between; `None` if it shows no such time.
-    fn turns_apart(&self, axis: DVec2) -> Option<f64> {
-        let least = self.gap(axis, 0.0);
-        if !self.is_turning() || least < -self.slack - 16.0 * self.precision.projection() {
-            return None;
-        }
-        let mut later = self.times[1];
-        for _ in 0..MAX_TRIES {
-            let gap = self.gap(axis, later);
-            // In between, at h, a gap is below the line between both by no more than bend h (later - h) / 2.
-            if gap > self.aim && gap - least >= 0.5 * self.bend * later * later * (1.0 + 1e-9) {
-                return Some(later);
-            }
-            later *= 0.25;
-        }
-        None
     }
 
     /// Whether the axis of a look shows a gap for all the time that is left.
@@ -179,29 +166,17 @@ impl Course<'_> {
 
     /// The same for an axis that turns along with either body.
     fn turned_step(&self, (look, aim): (&Look, f64), now: f64, rest: f64) -> f64 {
-        if self.line().is_some() {
-            return 0.0;
-        }
         let over = look.least - aim;
-        let turning = [0, 1].into_iter().filter(|&which| self.stretch.spins[which].speed > 0.0);
         let step =
             |which| longest_step((over, rest), |later| self.certain_along(which, look, now, later) - aim);
-        turning.map(step).fold(0.0, f64::max)
+        self.carriers().map(step).fold(0.0, f64::max)
     }
 
     /// The gap that is certain from then until some time later, along the axis of a look that turns along with a body.
-    /// Seen from that body everything else turns about it, as seen from a half-plane.
     fn certain_along(&self, which: usize, look: &Look, now: f64, later: f64) -> f64 {
-        let (then, spins) = ((now + later).min(self.times[1]), &self.stretch.spins);
-        let axis =
-            spins[which].turn_at(then).turn(spins[which].turn_at(now).turn_back(look.axis)).normalize();
-        let furthest = self.times.map(|time| self.stretch.offset_at(time).length());
-        let around = furthest[0].max(furthest[1]) + self.pieces[0].arm + self.pieces[1].arm;
-        let other = 1 - which;
-        let bend = spins[which].swerve * around
-            + 2.0 * spins[which].speed * (self.stretch.velocity.length() + self.pace)
-            + spins[other].swerve * self.pieces[other].arm;
-        let lost = 2.0 * spins[which].rounding * around;
-        look.least.min(self.gap(axis, then)) - bend * later * later * 0.125 * (1.0 + 1e-9) - lost
+        let then = (now + later).min(self.times[1]);
+        let lost = 2.0 * self.stretch.spins[which].rounding * self.around();
+        let gap = look.least.min(self.gap(self.carried(which, look.axis, [now, then]), then));
+        gap - self.bend_along(which) * later * later * 0.125 * (1.0 + 1e-9) - lost
     }
 }

@@ -1,0 +1,88 @@
+//! Two parts that all but touch at the start, and turn apart.
+//!
+//! Between points that are as near as rounding, an axis is rounding over their gap; the normals of edges are not. And
+//! beside the edge of a body that turns, a fixed axis shows no more than the far corner of that edge leaves: so an axis
+//! may turn along with either body.
+
+use super::Course;
+use asunder_geometry::glam::DVec2;
+
+/// Times at which two that all but touch at the start are looked at, to find them apart.
+const MAX_TRIES: usize = 20;
+
+impl Course<'_> {
+    /// Of an axis, and the normals of the edges at the corners that reach furthest along it, the one that shows the
+    /// greatest gap, and that. Between points that all but touch, an axis is off by their rounding over their gap;
+    /// edges' normals are not.
+    pub(super) fn sharpest(&self, axis: DVec2, now: f64) -> (DVec2, f64) {
+        let mut best = (axis, self.gap(axis, now));
+        if self.line().is_some() {
+            return best;
+        }
+        let [a, b] = self.outlines(now);
+        for (outline, sign) in
+            [(&a, 1.0), (&b, -1.0)].into_iter().filter(|(outline, _)| outline.edge_count() > 0)
+        {
+            let corner = outline.support(axis * sign).vertex;
+            for edge in [outline.before(corner), corner] {
+                let normal = outline.normal(edge) * sign;
+                let gap = self.gap(normal, now);
+                if gap > best.1 {
+                    best = (normal, gap);
+                }
+            }
+        }
+        best
+    }
+
+    /// When two that turn, and all but touch at time zero, are further apart along an axis than a step aims at, having
+    /// come no nearer in between; `None` if it shows no such time. The axis is fixed, or turns along with either body.
+    pub(super) fn turns_apart(&self, axis: DVec2) -> Option<f64> {
+        let least = self.gap(axis, 0.0);
+        if !self.is_turning() || least < -self.slack - 16.0 * self.precision.projection() {
+            return None;
+        }
+        let mut later = self.times[1];
+        for _ in 0..MAX_TRIES {
+            // In between, at h, a gap is below the line between both by no more than bend h (later - h) / 2.
+            let is_apart = |gap: f64, bend: f64| {
+                gap > self.aim && gap - least >= 0.5 * bend * later * later * (1.0 + 1e-9)
+            };
+            let turns = |which| {
+                is_apart(self.gap(self.carried(which, axis, [0.0, later]), later), self.bend_along(which))
+            };
+            if is_apart(self.gap(axis, later), self.bend) || self.carriers().any(turns) {
+                return Some(later);
+            }
+            later *= 0.25;
+        }
+        None
+    }
+
+    /// The bodies that an axis may turn along with: those that turn. A half-plane has an axis of its own.
+    pub(super) fn carriers(&self) -> impl Iterator<Item = usize> {
+        let has_line = self.line().is_some();
+        [0, 1].into_iter().filter(move |&which| !has_line && self.stretch.spins[which].speed > 0.0)
+    }
+
+    /// Where an axis that turns along with a body is, a while later.
+    pub(super) fn carried(&self, which: usize, axis: DVec2, [from, to]: [f64; 2]) -> DVec2 {
+        let spin = &self.stretch.spins[which];
+        spin.turn_at(to).turn(spin.turn_at(from).turn_back(axis)).normalize()
+    }
+
+    /// A bound on the second derivative of the gap along an axis that turns along with a body: seen from that, all else
+    /// turns about it, as seen from a half-plane.
+    pub(super) fn bend_along(&self, which: usize) -> f64 {
+        let (spins, other) = (&self.stretch.spins, 1 - which);
+        spins[which].swerve * self.around()
+            + 2.0 * spins[which].speed * (self.stretch.velocity.length() + self.pace)
+            + spins[other].swerve * self.pieces[other].arm
+    }
+
+    /// The furthest that a point of either is from the other's position.
+    pub(super) fn around(&self) -> f64 {
+        let furthest = self.times.map(|time| self.stretch.offset_at(time).length());
+        furthest[0].max(furthest[1]) + self.pieces[0].arm + self.pieces[1].arm
+    }
+}

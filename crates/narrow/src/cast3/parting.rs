@@ -1,0 +1,195 @@
+//! Two parts that all but touch at the start, and move apart.
+//!
+//! Where they are as near as rounding, the axis between their nearest points is rounding over their gap: it shows neither
+//! that gap nor that it grows. The axes of their features do: normals of faces, and directions square to edges. As
+//! bodies turn, so do these: beside a face that turns, a fixed axis shows no more than the far corner of that face
+//! leaves, and between two edges only the axis square to both shows all. So an axis may sway.
+//!
+//! ```text
+//! n  = of the axis between nearest points and those of features, the one that shows the greatest gap       (sharpest)
+//! m  = how n sways: not at all, along with either body, or staying square to an edge of each          (turns_apart)
+//! at h = all of the motion, a fourth of it, a 16th, ...
+//!   the gap along n + h m is clear, and so much greater than at the start that it was never smaller in between: apart
+//! ```
+//! From there on the usual steps go on.
+
+use super::passage::{Course, Moment};
+use crate::polyhedron::closest::{Closest, Placed};
+use crate::polyhedron::solid::Solid;
+use arrayvec::ArrayVec;
+use asunder_geometry::Shape3;
+use asunder_geometry::glam::DVec3;
+
+/// Sine of the angle by which an axis between points may be off square to an edge and still be made so: far more than
+/// rounding makes of it.
+const TILTED: f64 = 1e-3;
+
+/// The most edges at a point that are paired with those at the other.
+const MAX_EDGES: usize = 8;
+
+/// Times at which two that all but touch at the start are looked at, to find them apart.
+const MAX_TRIES: usize = 20;
+
+/// The unit axis square to an edge of A and one of B, to the side of another axis, and its rate, square to it, as the
+/// edges turn; `None` if they are nearly parallel.
+fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3) -> Option<(DVec3, DVec3)> {
+    let (one, other) = (one.try_normalize()?, other.try_normalize()?);
+    let across = one.cross(other);
+    let sine = across.length();
+    if sine <= TILTED {
+        return None;
+    }
+    let axis = across * (side.dot(across).signum() / sine);
+    // Along A's edge the rate makes up for its turning, and square to that, for B's.
+    let lean = |edge: DVec3, spin: DVec3| -axis.dot(spin.cross(edge));
+    let sway = other.cross(across) * lean(one, spin_a) + across.cross(one) * lean(other, spin_b);
+    Some((axis, sway / (sine * sine)))
+}
+
+impl Course<'_> {
+    /// Whether the gap along an axis never shrinks before the limit, however fast bodies turn.
+    pub(super) fn parts_along(&self, axis: DVec3, until: f64) -> bool {
+        let mut pace = self.closing(axis);
+        for ((turn, part), arm) in self.passage.turns.iter().zip(&self.parts).zip(&self.arms) {
+            let Some(turn) = turn else { continue };
+            if let Shape3::HalfSpace(_) = part.shape {
+                return false;
+            }
+            pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
+        }
+        pace <= 0.0
+    }
+
+    /// Whether an axis of their features shows a gap of at least `least` that never shrinks before the limit.
+    pub(super) fn features_part(&self, moment: &Moment, found: &Closest, least: f64, until: f64) -> bool {
+        let least = least + self.radii + moment.precision.projection();
+        let parts = |axis: DVec3| self.parts_along(axis, until) && moment.gap_along(axis) > least;
+        self.any_feature(moment, found, parts)
+    }
+
+    /// Of the axis between nearest points and those of features, the one that shows the greatest gap, and that.
+    pub(super) fn sharpest(&self, moment: &Moment, found: &Closest) -> (DVec3, f64) {
+        let taken = self.radii + moment.precision.projection();
+        let mut best = (found.normal, found.at_least);
+        self.any_feature(moment, found, |axis| {
+            let gap = moment.gap_along(axis) - taken;
+            if gap > best.1 {
+                best = (axis, gap);
+            }
+            false
+        });
+        best
+    }
+
+    /// Whether any axis of a feature is as wanted: the normal of a face, and those square to an edge, or to one of each,
+    /// next to the axis between nearest points. That one is off by the rounding of the longer lengths over the shorter:
+    /// it may show none of a small body's gap from a floor some thousand times as large, and next to none where the
+    /// points are as near as rounding.
+    fn any_feature(
+        &self,
+        moment: &Moment,
+        found: &Closest,
+        mut is_wanted: impl FnMut(DVec3) -> bool,
+    ) -> bool {
+        let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return false };
+        let normal = found.normal;
+        for (solid, sign) in [(a, 1.0), (b, -1.0)] {
+            let mut is_edge_wanted = |&edge: &u16| {
+                let along = solid.edge_direction(edge.into());
+                let (off, squared) = (normal.dot(along), along.length_squared());
+                off * off <= TILTED * TILTED * squared
+                    && (normal - along * (off / squared)).try_normalize().is_some_and(&mut is_wanted)
+            };
+            if solid.topology.edges().iter().any(&mut is_edge_wanted)
+                || (0..solid.face_count()).any(|face| is_wanted(solid.normal(face) * sign))
+            {
+                return true;
+            }
+        }
+        let [of_a, of_b] = [self.edges_at(a, found.points[0]), self.edges_at(b, found.points[1])];
+        of_a.iter().any(|&one| {
+            of_b.iter().any(|&other| {
+                square_to([one, other], [DVec3::ZERO; 2], normal).is_some_and(|(axis, _)| is_wanted(axis))
+            })
+        })
+    }
+
+    /// Some of the edges that a point of a core is on.
+    fn edges_at(&self, solid: &Solid, point: DVec3) -> ArrayVec<DVec3, MAX_EDGES> {
+        let near = self.fineness.rest(0.0);
+        let is_on = |(from, along): (DVec3, DVec3)| {
+            let share = (along.dot(point - from) / along.length_squared()).clamp(0.0, 1.0);
+            (from + along * share - point).length_squared() <= near * near
+        };
+        let edges = solid.topology.edges().iter().map(|&edge| solid.edge(edge.into()));
+        edges
+            .map(|(from, to)| (from, to - from))
+            .filter(|&edge| is_on(edge))
+            .map(|(_, along)| along)
+            .take(MAX_EDGES)
+            .collect()
+    }
+
+    /// When two that all but touch at the start are further apart along an axis than a step aims at, having come no
+    /// nearer in between, and the axis as it is then.
+    pub(super) fn turns_apart(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
+        let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
+        let of_faces =
+            [DVec3::ZERO, moment.spins[0].cross(found.normal), moment.spins[1].cross(found.normal)];
+        let swaying = of_faces.map(|sway| (found.normal, sway));
+        if let Some(apart) = swaying.iter().find_map(|&sways| self.sways_apart(moment, sways, until)) {
+            return Some(apart);
+        }
+        let [of_a, of_b] = [self.edges_at(a, found.points[0]), self.edges_at(b, found.points[1])];
+        of_a.iter().find_map(|&one| {
+            of_b.iter().find_map(|&other| {
+                let sways = square_to([one, other], moment.spins, found.normal)?;
+                self.sways_apart(moment, sways, until)
+            })
+        })
+    }
+
+    /// The same along an axis that moves at a constant rate, square to where it starts.
+    ///
+    /// Along n + h m a vertex x of A reaches x.(n + h m), whose second derivative is no more than that of x times the
+    /// axis' length and twice the speeds of both; and the radii count as many times as the axis is long. So in between,
+    /// at h, the gap is below the line between its ends by no more than bend h (later - h) / 2.
+    fn sways_apart(
+        &self,
+        moment: &Moment,
+        (normal, sway): (DVec3, DVec3),
+        until: f64,
+    ) -> Option<(f64, DVec3)> {
+        let least = moment.gap_along(normal) - self.radii - moment.precision.projection();
+        if least < -4.0 * moment.precision.projection() {
+            return None;
+        }
+        let rate = sway.length();
+        let mut later = until;
+        for _ in 0..MAX_TRIES {
+            let (then, axis) = (self.at(later), normal + sway * later);
+            let length = axis.length();
+            let doubt = then.precision.projection();
+            let gap = then.gap_along(axis / length) - self.radii - doubt;
+            let bend = self.bend(moment, None, [0.0, later]) * (1.0 + rate * later)
+                + 2.0 * rate * self.pace(later)
+                + self.radii * rate * rate;
+            if gap > self.slack + self.fineness.rest(doubt)
+                && gap * length - least >= 0.5 * bend * later * later
+            {
+                return Some((later, axis / length));
+            }
+            later *= 0.25;
+        }
+        None
+    }
+
+    /// A bound on how fast a point of A moves past one of B, from the start until a fraction.
+    fn pace(&self, until: f64) -> f64 {
+        let of = |i: usize| {
+            let speed = self.passage.turns[i].map_or(0.0, |turn| turn.bounds_within(0.0, until)[0]);
+            speed * self.arms[i].from_axis
+        };
+        (self.passage.drift.length() + of(0) + of(1)) * (1.0 + 64.0 * f64::EPSILON)
+    }
+}
