@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let filter = Filter2::new().only(&is_solid);
         let slide = world.move_and_slide((&hero, &pose), Vec2::new(0.32, fall), &walk, &filter);
         pose = slide.pose;
-        footing = slide.ground.and_then(|ground| world.footing(&ground));
+        footing = world.footing(&slide, &walk);
         trace.push(pose.position() - DVec2::Y * 0.6);
         fall = match slide.ground {
             Some(_) if frame == 20 => 0.6,

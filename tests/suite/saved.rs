@@ -335,8 +335,9 @@ fn answers_and_walks_come_back() {
     assert_comes_back(&world.cast_shape(at, down, &filter).unwrap());
     assert_comes_back(&world.closest_to_shape(at, 1.0, &filter).unwrap());
     let walk = assert_comes_back(&Walk3 { step: 0.1, ..Walk3::new(&ball, Vec3::Y).unwrap() });
-    let ground = assert_comes_back(&world.move_and_slide(at, down, &walk, &filter).ground.unwrap());
-    assert_comes_back(&world.footing(&ground).unwrap());
+    let slide = world.move_and_slide(at, down, &walk, &filter);
+    assert_comes_back(&slide.ground.unwrap());
+    assert_comes_back(&world.footing(&slide, &walk).unwrap());
     assert_comes_back(&world.depenetrate((&ball, &Pose3::at([0.3, 0.9, 0.0]).unwrap()), &filter));
     assert_comes_back(&DebugOptions { columns: true, ..DebugOptions::default() });
 }

@@ -4,7 +4,7 @@ use super::finite;
 use super::moving::displacement;
 use asunder::{Collider3, Filter3, World3};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Compound3, Cuboid, HalfSpace, Motion3, Pose3, Shape3, Sphere};
+use asunder_geometry::{Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Shape3, Sphere};
 use asunder_narrow::{Impact3, Pair3, Separation3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{KINDS3, pair3};
@@ -233,6 +233,40 @@ fn what_all_but_touches_is_stopped_as_it_turns_in() {
         assert!(found.is_some_and(|found| found.fraction < 1e-6), "seed {seed}, {gap}: {found:?}");
     }
     assert!(tried.iter().all(|&tried| tried > 1000), "{tried:?}");
+}
+
+/// What shares a point at the start touches, even if it turns away.
+#[test]
+fn what_touches_exactly_and_turns_away_is_an_impact_at_its_start() {
+    let corners = |half: f32, height: f32| {
+        let base =
+            [[-half, 0.0, -half], [half, 0.0, -half], [half, 0.0, half], [-half, 0.0, half]].map(Vec3::from);
+        let top = base.map(|corner| corner + Vec3::Y * height);
+        Shape3::from(Hull::from_points(&[base, top].concat()).unwrap())
+    };
+    let spike = [Vec3::ZERO, Vec3::new(1.0, 1.0, 0.5), Vec3::new(-1.0, 1.0, 0.5), Vec3::new(0.0, 1.0, -1.0)];
+    let spike = Shape3::from(Hull::from_points(&spike).unwrap());
+    let (block, below) = (corners(1.0, 0.5), Pose3::at([0.0, -0.5, 0.0]).unwrap());
+    // On its corner, its edge, its face.
+    for (shape, at) in [(&spike, [0.25, 0.0, 0.5]), (&block, [0.5, 0.0, 2.0]), (&block, [0.5, 0.0, -0.25])] {
+        let from = Pose3::at(at).unwrap();
+        for turn in
+            [Quat::IDENTITY, Quat::from_xyzw(0.01, 0.02, -0.01, 1.0), Quat::from_xyzw(0.0, 0.3, 0.0, 1.0)]
+        {
+            let up = Motion3::new([0.1, 3.0, 0.0], turn).unwrap();
+            let found = Pair3::new(shape, &from, &block, &below).impact(&up, &Motion3::STILL);
+            assert!(
+                found.is_some_and(|found| found.overlapping && found.fraction == 0.0),
+                "{at:?}: {found:?}"
+            );
+            let apart = from.shifted(DVec3::Y * 1e-13).unwrap();
+            assert_eq!(
+                Pair3::new(shape, &apart, &block, &below).impact(&up, &Motion3::STILL),
+                None,
+                "{at:?}"
+            );
+        }
+    }
 }
 
 /// What is nearer than its rounding may turn away, and comes no nearer by turning in: else a body that a turn brought to

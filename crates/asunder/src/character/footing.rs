@@ -1,6 +1,6 @@
 //! What carries a character: where it stands on a body, and where that place is later.
 
-use super::{Obstacle, Walks};
+use super::{Linear, Slide, Walk, Walks};
 use crate::space::{BodyKey2, BodyKey3};
 use crate::world::World;
 use asunder_geometry::glam::{DVec2, DVec3};
@@ -18,7 +18,7 @@ use asunder_geometry::{Pose2, Pose3};
 /// let ball = Shape3::from(Sphere::new(0.5)?);
 /// let walk = Walk3::new(&ball, Vec3::Y)?;
 /// let slide = world.move_and_slide((&ball, &Pose3::at([0.0, 1.6, 0.0])?), Vec3::Y * -0.5, &walk, &Filter3::new());
-/// let footing: Option<Footing3> = slide.ground.and_then(|ground| world.footing(&ground));
+/// let footing: Option<Footing3> = world.footing(&slide, &walk);
 /// let footing = footing.ok_or("it stands on the lift")?;
 /// assert_eq!(footing.body, lift);
 /// world.set_pose(lift, Pose3::at([3.0, 0.25, 0.0])?)?;
@@ -33,7 +33,8 @@ pub struct Footing<K, O, P> {
     pub body: K,
     /// Where the body was then.
     pub pose: O,
-    /// The point on the body on which the character stood then, in world space, in metres.
+    /// The point that is carried, in world space, in metres: straight below the character's position, as high as where
+    /// it stood on the body.
     pub point: P,
 }
 
@@ -43,16 +44,20 @@ pub type Footing2 = Footing<BodyKey2, Pose2, DVec2>;
 /// A place on a body on which a character in space stands.
 pub type Footing3 = Footing<BodyKey3, Pose3, DVec3>;
 
+/// Of a flat foot, the ground's point is any corner: one that turned about that would wander over a turntable.
 pub(super) fn footing<S: Walks>(
     world: &World<S>,
-    ground: &Obstacle<S::Key, S::Vector, S::Point>,
+    slide: &Slide<S::Key, S::Pose, S::Vector, S::Point>,
+    walk: &Walk<S::Vector>,
 ) -> Option<Footing<S::Key, S::Pose, S::Point>> {
-    let Obstacle { body, point, .. } = *ground;
-    let pose = world.bodies.get(body)?.pose;
-    Some(Footing { body, pose, point })
+    let ground = slide.ground.as_ref()?;
+    let pose = world.bodies.get(ground.body)?.pose;
+    let (up, center) = (S::wide(walk.up).unit(), S::position(&slide.pose));
+    let point = up.map_or(ground.point, |up| center - up * (center - ground.point).dot(up));
+    Some(Footing { body: ground.body, pose, point })
 }
 
-/// The character's pose, moved as the point under its foot was. Only the foot: kept in the body's axes, the centre of a
+/// The character's pose, moved as the point under its foot was. Only that: kept in the body's axes, the centre of a
 /// character on a seesaw would be swung to and fro above the pivot.
 pub(super) fn carried<S: Walks>(
     world: &World<S>,

@@ -4,7 +4,7 @@ use super::footing::{self, Footing2};
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed2, Gap, Linear, Obstacle2, Slide2, Walk2, Walks, is_along};
+use super::{Freed2, Gap, Linear, Slide2, Walk2, Walks, is_along};
 use crate::collider::Collider2;
 use crate::query::{Asked, Filter2};
 use crate::space::Plane;
@@ -158,19 +158,22 @@ impl World<Plane> {
         move_and_slide(self, at, displacement, walk, filter)
     }
 
-    /// The place on a body on which a character stands, given the ground from its move: with it, the body carries the
-    /// character by [`carried`](World::carried). `None` if the body was removed. Cost: constant.
+    /// Where on which body a character stands at the end of its move: with it, the body carries the character by
+    /// [`carried`](World::carried). `None` if it stands on nothing, or the body was removed. Cost: constant.
     ///
     /// ```
-    /// use asunder::{Obstacle2, World2};
-    /// let nobody = Obstacle2 { body: Default::default(), normal: Default::default(), point: Default::default(), part: 0 };
-    /// assert_eq!(World2::new().footing(&nobody), None);
+    /// use asunder::{Circle, Filter2, Pose2, Shape2, Walk2, World2, glam::Vec2};
+    /// let (world, ball) = (World2::new(), Shape2::from(Circle::new(0.5)?));
+    /// let walk = Walk2::new(&ball, Vec2::Y)?;
+    /// let slide = world.move_and_slide((&ball, &Pose2::IDENTITY), Vec2::NEG_Y, &walk, &Filter2::new());
+    /// assert_eq!(world.footing(&slide, &walk), None, "it falls");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn footing(&self, ground: &Obstacle2) -> Option<Footing2> {
-        footing::footing(self, ground)
+    pub fn footing(&self, slide: &Slide2, walk: &Walk2) -> Option<Footing2> {
+        footing::footing(self, slide, walk)
     }
 
-    /// Where a character is once what it stands on has moved: as far from its pose as the point under its foot went
+    /// Where a character is once what it stands on has moved: as far from its pose as the point below it went
     /// since [`footing`](World::footing). To be called once per frame, after the bodies that carry characters have
     /// moved, and before the character does; it may lead into a solid, which the next
     /// [`move_and_slide`](World::move_and_slide) corrects.
@@ -179,11 +182,10 @@ impl World<Plane> {
     /// the character out of range. Cost: constant.
     ///
     /// ```
-    /// use asunder::{Collider2, Obstacle2, Pose2, Rect, Rotation2, World2, glam::{DVec2, Vec2}};
+    /// use asunder::{Collider2, Footing2, Pose2, Rect, Rotation2, World2, glam::{DVec2, Vec2}};
     /// let mut world = World2::new();
     /// let wheel = world.insert(Collider2::new(Rect::from_half_extents(Vec2::ONE)?));
-    /// let ground = Obstacle2 { body: wheel, normal: Vec2::Y, point: DVec2::new(1.0, 1.0), part: 0 };
-    /// let footing = world.footing(&ground).ok_or("the wheel is there")?;
+    /// let footing = Footing2 { body: wheel, pose: Pose2::IDENTITY, point: DVec2::new(1.0, 1.0) };
     /// world.set_pose(wheel, Pose2::new([0.0, 5.0], Rotation2::new(0.0, 1.0)?)?)?;
     /// // The corner went from (1, 1) to (-1, 6): so does the foot.
     /// let hero = Pose2::at([1.0, 2.0])?;

@@ -4,7 +4,7 @@ use super::footing::{self, Footing3};
 use super::free::{Freeing, is_overlapping};
 use super::gait::least_skin;
 use super::slide::move_and_slide;
-use super::{Freed3, Gap, Linear, Obstacle3, Slide3, Walk3, Walks, is_along};
+use super::{Freed3, Gap, Linear, Slide3, Walk3, Walks, is_along};
 use crate::collider::Collider3;
 use crate::query::{Asked, Filter3};
 use crate::space::Volume;
@@ -161,19 +161,22 @@ impl World<Volume> {
         move_and_slide(self, at, displacement, walk, filter)
     }
 
-    /// The place on a body on which a character stands, given the ground from its move: with it, the body carries the
-    /// character by [`carried`](World::carried). `None` if the body was removed. Cost: constant.
+    /// Where on which body a character stands at the end of its move: with it, the body carries the character by
+    /// [`carried`](World::carried). `None` if it stands on nothing, or the body was removed. Cost: constant.
     ///
     /// ```
-    /// use asunder::{Obstacle3, World3};
-    /// let nobody = Obstacle3 { body: Default::default(), normal: Default::default(), point: Default::default(), part: 0 };
-    /// assert_eq!(World3::new().footing(&nobody), None);
+    /// use asunder::{Filter3, Pose3, Shape3, Sphere, Walk3, World3, glam::Vec3};
+    /// let (world, ball) = (World3::new(), Shape3::from(Sphere::new(0.5)?));
+    /// let walk = Walk3::new(&ball, Vec3::Y)?;
+    /// let slide = world.move_and_slide((&ball, &Pose3::IDENTITY), Vec3::NEG_Y, &walk, &Filter3::new());
+    /// assert_eq!(world.footing(&slide, &walk), None, "it falls");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn footing(&self, ground: &Obstacle3) -> Option<Footing3> {
-        footing::footing(self, ground)
+    pub fn footing(&self, slide: &Slide3, walk: &Walk3) -> Option<Footing3> {
+        footing::footing(self, slide, walk)
     }
 
-    /// Where a character is once what it stands on has moved: as far from its pose as the point under its foot went
+    /// Where a character is once what it stands on has moved: as far from its pose as the point below it went
     /// since [`footing`](World::footing). To be called once per frame, after the bodies that carry characters have
     /// moved, and before the character does; it may lead into a solid, which the next
     /// [`move_and_slide`](World::move_and_slide) corrects.
@@ -182,11 +185,10 @@ impl World<Volume> {
     /// the character out of range. Cost: constant.
     ///
     /// ```
-    /// use asunder::{Collider3, Cuboid, Obstacle3, Pose3, World3, glam::{DVec3, Quat, Vec3}};
+    /// use asunder::{Collider3, Cuboid, Footing3, Pose3, World3, glam::{DVec3, Quat, Vec3}};
     /// let mut world = World3::new();
     /// let disc = world.insert(Collider3::new(Cuboid::from_half_extents(Vec3::ONE)?));
-    /// let ground = Obstacle3 { body: disc, normal: Vec3::Y, point: DVec3::new(1.0, 1.0, 1.0), part: 0 };
-    /// let footing = world.footing(&ground).ok_or("the disc is there")?;
+    /// let footing = Footing3 { body: disc, pose: Pose3::IDENTITY, point: DVec3::new(1.0, 1.0, 1.0) };
     /// // A quarter turn about y.
     /// world.set_pose(disc, Pose3::new([0.0, 5.0, 0.0], Quat::from_xyzw(0.0, 1.0, 0.0, 1.0))?)?;
     /// // The corner went from (1, 1, 1) to (1, 6, -1): so does the foot.

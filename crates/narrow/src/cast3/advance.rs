@@ -118,7 +118,11 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
             (found.normal, found.at_least) = course.sharpest(&moment, &found);
         }
         let here = course.met(&moment, &found, (fraction, gap));
-        if may_part && let Some((away, axis)) = course.turns_apart(&moment, &found, until) {
+        // Where they may touch, an exact test has to say so first.
+        if may_part
+            && found.at_least > 0.0
+            && let Some((away, axis)) = course.turns_apart(&moment, &found, until)
+        {
             start = Some((here, f64::NEG_INFINITY));
             (fraction, towards, kept) = (away, axis, f64::NEG_INFINITY);
             continue;
