@@ -11,6 +11,7 @@ mod kept;
 mod leaves;
 mod middles;
 mod needles;
+mod parting;
 mod peers;
 mod planes;
 mod points;

@@ -86,6 +86,8 @@ impl Pair2<'_> {
     ///   have been apart for a 32nd of the motion; after a shorter time apart, that touch may be missed.
     /// - At inner vertices of straight lines and hollows, the normal is that of the run they are on. The part of a
     ///   chain is the first segment of the straight run that is met.
+    /// - A shape that starts nearer to one part than positions round to, and moves along it, may overlap that part, by
+    ///   rounding, on its way and where another part stops it.
     /// - A displacement that is not finite counts as none: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     ///

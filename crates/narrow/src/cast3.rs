@@ -66,6 +66,8 @@ impl Pair3<'_> {
     /// - Shapes that touch at the start, exactly, are reported as such, even when they move apart: compare the normal
     ///   with the displacement. Two half-spaces whose overlap is unbounded then have no depth: the normal is that of A,
     ///   and both anchors are the bodies' positions.
+    /// - A shape that starts nearer to one part than positions round to, and moves along it, may overlap that part, by
+    ///   rounding, on its way and where another part stops it.
     /// - A displacement that is not finite counts as zero: shapes that touch are reported, unlike by a world's
     ///   `cast_shape`.
     /// - A compound is met at the parts that touch first.
@@ -74,8 +76,7 @@ impl Pair3<'_> {
     ///
     /// - One-sided ground stops exactly the parts whose centre is in front of a triangle at the start, however fast
     ///   they are. A part touches at the start only if it overlaps a triangle in front of which it is.
-    /// - A part that rises through one-sided ground, and moves away from the front of the neighbouring triangle, passes
-    ///   the edge between the two.
+    /// - A part that rises through one-sided ground passes the edges of triangles from whose fronts it moves away.
     /// - The normal is the triangle's, except where an edge or vertex stands out of the ground around it.
     ///
     /// Cost: two roots for spheres, fifteen axes for cuboids, a height or three for what comes down on the face of a

@@ -38,7 +38,6 @@
 //! search for each face and some of the edges.
 
 use super::passage::{Course, Moment, length, outlasts_rounded};
-use crate::pair3::Part;
 use crate::polyhedron::closest::{Closest, Placed, closest};
 use crate::precision::{closed_after, off_closing};
 use asunder_geometry::Shape3;
@@ -108,19 +107,22 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         found.at_least -= course.radii + doubt;
         let at_most = found.at_most - course.radii + doubt;
         let gap = at_most + course.rounding(fraction, moment.between);
-        // The axis that led here still shows the gap that it was left with; a new one may show less, by rounding.
-        if found.at_least < kept {
+        // The axis that led here still shows the gap that it was left with; a new one may show less, by rounding. But a
+        // half-space has no other than its own, which has turned.
+        if found.at_least < kept && !course.has_plane() {
             (found.at_least, found.normal) = (kept, towards);
         }
         let is_near = at_most <= course.slack + course.fineness.gap(doubt);
         let may_part = fraction == 0.0 && is_near && !passage.is_straight();
-        if may_part {
+        // Else it shows all the gap there is.
+        if may_part && found.at_least < 0.5 * at_most {
             (found.normal, found.at_least) = course.sharpest(&moment, &found);
         }
         let here = course.met(&moment, &found, (fraction, gap));
-        // Where they may touch, an exact test has to say so first.
+        // Where they may touch, an exact test has to say so first; and beyond the aim, steps lead on.
         if may_part
             && found.at_least > 0.0
+            && found.at_least <= course.slack + course.fineness.rest(doubt)
             && let Some((away, axis)) = course.turns_apart(&moment, &found, until)
         {
             start = Some((here, f64::NEG_INFINITY));
@@ -233,8 +235,11 @@ impl Course<'_> {
     /// Whether an axis may turn along with a body: only if that turns, and neither is a half-space, which has an axis
     /// of its own.
     fn may_carry(&self, carrier: Carrier) -> bool {
-        let is_plane = |part: &Part| matches!(part.shape, Shape3::HalfSpace(_));
-        carrier.is_none_or(|i| self.passage.turns[i].is_some() && !self.parts.iter().any(is_plane))
+        carrier.is_none_or(|i| self.passage.turns[i].is_some() && !self.has_plane())
+    }
+
+    fn has_plane(&self) -> bool {
+        self.parts.iter().any(|part| matches!(part.shape, Shape3::HalfSpace(_)))
     }
 
     /// Where an axis that turns along with a body is, a while later.
@@ -275,16 +280,21 @@ impl Course<'_> {
             return Step::Free;
         }
         // Those that start nearer may come nearer yet for a while, if only they do not stay so: `advance` sees to it.
-        let (aim, left) = match found.at_least > aim {
-            true => (aim, self.slack + 0.5 * rest),
-            false => (found.at_least * LEFT, found.at_least * LEFT * 0.5),
+        let (aim, left) = if found.at_least > aim {
+            (aim, self.slack + 0.5 * rest)
+        } else {
+            // Of what is certain in rounded poses, if anything is.
+            let sure = if found.at_least > self.slack { self.slack } else { 0.0 };
+            let some = (found.at_least - sure) * LEFT;
+            (sure + some, sure + 0.5 * some)
         };
         let free = found.at_least - aim;
         let (mut step, mut chord, mut end) = (0.0, span, at_end);
         for _ in 0..MAX_CHORDS {
             // The root of free + slope h - bend h^2 / 2.
             let slope = (end - found.at_least) / chord;
-            let root = 2.0 * free / ((slope * slope + 2.0 * bend * free).sqrt() - slope);
+            let width = (slope * slope + 2.0 * bend * free).sqrt();
+            let root = if slope > 0.0 { (width + slope) / bend } else { 2.0 * free / (width - slope) };
             // Nothing is known beyond the chord.
             let next = if root < chord { root } else { chord };
             if next <= step * 1.0625 {

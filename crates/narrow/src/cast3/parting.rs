@@ -25,14 +25,17 @@ use asunder_geometry::glam::DVec3;
 const TILTED: f64 = 1e-3;
 
 /// The most edges at a point that are paired with those at the other.
-const MAX_EDGES: usize = 8;
+const MAX_EDGES: usize = 4;
 
 /// Times at which two that all but touch at the start are looked at, to find them apart.
 const MAX_TRIES: usize = 20;
 
+/// A unit axis, and the rate at which it moves, square to it.
+type Sways = (DVec3, DVec3);
+
 /// The unit axis square to an edge of A and one of B, to the side of another axis, and its rate, square to it, as the
 /// edges turn; `None` if they are nearly parallel.
-fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3) -> Option<(DVec3, DVec3)> {
+fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3) -> Option<Sways> {
     let (one, other) = (one.try_normalize()?, other.try_normalize()?);
     let across = one.cross(other);
     let sine = across.length();
@@ -44,6 +47,23 @@ fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3
     let lean = |edge: DVec3, spin: DVec3| -axis.dot(spin.cross(edge));
     let sway = other.cross(across) * lean(one, spin_a) + across.cross(one) * lean(other, spin_b);
     Some((axis, sway / (sine * sine)))
+}
+
+/// Some of the edges that a point of a core is on, or as near to: those at the vertex that reaches furthest along an
+/// axis, which they reach as far along.
+fn edges_at(solid: &Solid, axis: DVec3, point: DVec3, near: f64) -> ArrayVec<DVec3, MAX_EDGES> {
+    let (vertex, local) = (solid.support(axis).vertex, solid.to_local(point));
+    let is_on = |&edge: &usize| {
+        let (from, to) = solid.topology.ends(edge);
+        (from == vertex || to == vertex) && {
+            let [from, to] = [from, to].map(|end| solid.vertices[end].as_dvec3());
+            let (along, aside) = (to - from, local - from);
+            let share = (along.dot(aside) / along.length_squared()).clamp(0.0, 1.0);
+            (along * share - aside).length_squared() <= near * near
+        }
+    };
+    let edges = solid.topology.edges().iter().map(|&edge| usize::from(edge));
+    edges.filter(is_on).map(|edge| solid.edge_direction(edge)).take(MAX_EDGES).collect()
 }
 
 impl Course<'_> {
@@ -92,8 +112,10 @@ impl Course<'_> {
         mut is_wanted: impl FnMut(DVec3) -> bool,
     ) -> bool {
         let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return false };
-        let normal = found.normal;
-        for (solid, sign) in [(a, 1.0), (b, -1.0)] {
+        let (normal, [on_a, on_b]) = (found.normal, found.points);
+        // Where cores have a common point within rounding, points of both are this far from it at most.
+        let near = self.fineness.rest(moment.precision.projection()) + (found.at_most - self.radii).max(0.0);
+        for (solid, point, sign) in [(a, on_a, 1.0), (b, on_b, -1.0)] {
             let mut is_edge_wanted = |&edge: &u16| {
                 let along = solid.edge_direction(edge.into());
                 let (off, squared) = (normal.dot(along), along.length_squared());
@@ -101,12 +123,16 @@ impl Course<'_> {
                     && (normal - along * (off / squared)).try_normalize().is_some_and(&mut is_wanted)
             };
             if solid.topology.edges().iter().any(&mut is_edge_wanted)
-                || (0..solid.face_count()).any(|face| is_wanted(solid.normal(face) * sign))
+                || (0..solid.face_count()).any(|face| {
+                    let normal = solid.normal(face);
+                    (solid.face_reach(face, normal) - normal.dot(point)).abs() <= near
+                        && is_wanted(normal * sign)
+                })
             {
                 return true;
             }
         }
-        let [of_a, of_b] = [self.edges_at(a, found.points[0]), self.edges_at(b, found.points[1])];
+        let [of_a, of_b] = [edges_at(a, normal, on_a, near), edges_at(b, -normal, on_b, near)];
         of_a.iter().any(|&one| {
             of_b.iter().any(|&other| {
                 square_to([one, other], [DVec3::ZERO; 2], normal).is_some_and(|(axis, _)| is_wanted(axis))
@@ -114,69 +140,68 @@ impl Course<'_> {
         })
     }
 
-    /// Some of the edges that a point of a core is on.
-    fn edges_at(&self, solid: &Solid, point: DVec3) -> ArrayVec<DVec3, MAX_EDGES> {
-        let near = self.fineness.rest(0.0);
-        let is_on = |(from, along): (DVec3, DVec3)| {
-            let share = (along.dot(point - from) / along.length_squared()).clamp(0.0, 1.0);
-            (from + along * share - point).length_squared() <= near * near
-        };
-        let edges = solid.topology.edges().iter().map(|&edge| solid.edge(edge.into()));
-        edges
-            .map(|(from, to)| (from, to - from))
-            .filter(|&edge| is_on(edge))
-            .map(|(_, along)| along)
-            .take(MAX_EDGES)
-            .collect()
-    }
-
     /// When two that all but touch at the start are further apart along an axis than a step aims at, having come no
     /// nearer in between, and the axis as it is then.
     pub(super) fn turns_apart(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
         let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
-        let of_faces =
-            [DVec3::ZERO, moment.spins[0].cross(found.normal), moment.spins[1].cross(found.normal)];
-        let swaying = of_faces.map(|sway| (found.normal, sway));
-        if let Some(apart) = swaying.iter().find_map(|&sways| self.sways_apart(moment, sways, until)) {
+        let normal = found.normal;
+        let apart = |sways: Sways| {
+            let opening = self.opening(moment, [a, b], sways);
+            if opening > 0.0 { self.sways_apart(moment, (sways, opening), until) } else { None }
+        };
+        let along = [DVec3::ZERO, moment.spins[0].cross(normal), moment.spins[1].cross(normal)];
+        if let Some(apart) = along.into_iter().find_map(|sway| apart((normal, sway))) {
             return Some(apart);
         }
-        let [of_a, of_b] = [self.edges_at(a, found.points[0]), self.edges_at(b, found.points[1])];
-        of_a.iter().find_map(|&one| {
-            of_b.iter().find_map(|&other| {
-                let sways = square_to([one, other], moment.spins, found.normal)?;
-                self.sways_apart(moment, sways, until)
-            })
-        })
+        let near = self.fineness.rest(moment.precision.projection());
+        let [of_a, of_b] =
+            [edges_at(a, normal, found.points[0], near), edges_at(b, -normal, found.points[1], near)];
+        let mut pairs = of_a.iter().flat_map(|&one| of_b.iter().map(move |&other| [one, other]));
+        pairs.find_map(|edges| square_to(edges, moment.spins, normal).and_then(apart))
     }
 
-    /// The same along an axis that moves at a constant rate, square to where it starts.
+    /// How fast the vertices that are nearest along an axis open at first. If they do not, the gap along it gets back to
+    /// what it was no faster than it may bend, and shows nothing.
+    fn opening(&self, moment: &Moment, [a, b]: [&Solid; 2], (normal, sway): Sways) -> f64 {
+        let on_a = a.point(a.support(normal).vertex);
+        let on_b = b.point(b.support(-normal).vertex);
+        let [spin_a, spin_b] = moment.spins;
+        let velocity = spin_b.cross(on_b - moment.between) - spin_a.cross(on_a) - self.passage.drift;
+        normal.dot(velocity) + sway.dot(on_b - on_a)
+    }
+
+    /// The same as [`turns_apart`](Self::turns_apart) along one axis, and how fast the gap opens along it.
     ///
     /// Along n + h m a vertex x of A reaches x.(n + h m), whose second derivative is no more than that of x times the
     /// axis' length and twice the speeds of both; and the radii count as many times as the axis is long. So in between,
-    /// at h, the gap is below the line between its ends by no more than bend h (later - h) / 2.
+    /// at h, the gap is below the line between its ends by no more than bend h (later - h) / 2; and it grows by no more
+    /// than opening h + bend h^2 / 2.
     fn sways_apart(
         &self,
         moment: &Moment,
-        (normal, sway): (DVec3, DVec3),
+        ((normal, sway), opening): (Sways, f64),
         until: f64,
     ) -> Option<(f64, DVec3)> {
-        let least = moment.gap_along(normal) - self.radii - moment.precision.projection();
-        if least < -4.0 * moment.precision.projection() {
+        let doubt = moment.precision.projection();
+        let least = moment.gap_along(normal) - self.radii - doubt;
+        if least < -4.0 * doubt {
             return None;
         }
-        let rate = sway.length();
+        let (rate, aim) = (sway.length(), self.slack + self.fineness.rest(doubt));
         let mut later = until;
         for _ in 0..MAX_TRIES {
+            let bend = self.bend(moment, None, [0.0, later]) * (1.0 + rate * later)
+                + 2.0 * rate * self.pace(later)
+                + self.radii * rate * rate;
+            let bent = 0.5 * bend * later * later;
+            if least + opening * later + bent + 4.0 * doubt <= aim {
+                return None;
+            }
             let (then, axis) = (self.at(later), normal + sway * later);
             let length = axis.length();
             let doubt = then.precision.projection();
             let gap = then.gap_along(axis / length) - self.radii - doubt;
-            let bend = self.bend(moment, None, [0.0, later]) * (1.0 + rate * later)
-                + 2.0 * rate * self.pace(later)
-                + self.radii * rate * rate;
-            if gap > self.slack + self.fineness.rest(doubt)
-                && gap * length - least >= 0.5 * bend * later * later
-            {
+            if gap > self.slack + self.fineness.rest(doubt) && gap * length - least >= bent {
                 return Some((later, axis / length));
             }
             later *= 0.25;

@@ -328,7 +328,7 @@ impl<'a> Solid<'a> {
 
     /// A point of the frame in the shape's own axes.
     #[inline]
-    pub(super) fn to_local(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn to_local(&self, point: DVec3) -> DVec3 {
         self.back(point - self.position)
     }
 

@@ -42,21 +42,43 @@ impl Course<'_> {
         if !self.is_turning() || least < -self.slack - 16.0 * self.precision.projection() {
             return None;
         }
+        let mut carriers = [None].into_iter().chain(self.carriers().map(Some));
+        carriers.find_map(|carrier| self.apart_along(axis, carrier, least))
+    }
+
+    /// The same for an axis and what it turns along with, along which they are as near as `least` at time zero.
+    fn apart_along(&self, axis: DVec2, carrier: Option<usize>, least: f64) -> Option<f64> {
+        if !self.opens(axis, carrier) {
+            return None;
+        }
+        let bend = carrier.map_or(self.bend, |which| self.bend_along(which));
         let mut later = self.times[1];
         for _ in 0..MAX_TRIES {
+            let then = carrier.map_or(axis, |which| self.carried(which, axis, [0.0, later]));
+            let gap = self.gap(then, later);
             // In between, at h, a gap is below the line between both by no more than bend h (later - h) / 2.
-            let is_apart = |gap: f64, bend: f64| {
-                gap > self.aim && gap - least >= 0.5 * bend * later * later * (1.0 + 1e-9)
-            };
-            let turns = |which| {
-                is_apart(self.gap(self.carried(which, axis, [0.0, later]), later), self.bend_along(which))
-            };
-            if is_apart(self.gap(axis, later), self.bend) || self.carriers().any(turns) {
+            if gap > self.aim && gap - least >= 0.5 * bend * later * later * (1.0 + 1e-9) {
                 return Some(later);
             }
             later *= 0.25;
         }
         None
+    }
+
+    /// Whether the vertices that are nearest along an axis come no nearer at first. If they do, the gap along it comes
+    /// back to what it was no faster than it may bend, and so shows nothing.
+    fn opens(&self, axis: DVec2, carrier: Option<usize>) -> bool {
+        if self.line().is_some() {
+            return true;
+        }
+        let [a, b] = self.outlines(0.0);
+        let (on_a, on_b) = (a.point(a.support(axis).vertex), b.point(b.support(-axis).vertex));
+        let [spin_a, spin_b] = self.stretch.spins.map(|spin| spin.speed_at(0.0));
+        let velocity = (on_b - self.stretch.offset_at(0.0)).perp() * spin_b
+            - on_a.perp() * spin_a
+            - self.stretch.velocity;
+        let sway = carrier.map_or(0.0, |which| [spin_a, spin_b][which]);
+        axis.dot(velocity) + sway * axis.perp().dot(on_b - on_a) >= 0.0
     }
 
     /// The bodies that an axis may turn along with: those that turn. A half-plane has an axis of its own.
