@@ -33,9 +33,8 @@
 //! A half-space that turns has an axis that turns with it: the same, with the vertices of the other as seen from the
 //! plane. Axes that turn are useful for other bodies as well. Where a body passes beside a face of one that turns, a
 //! fixed axis shows no more of the gap than the far corner of that face leaves. So where steps are many, an axis that
-//! turns along with either body is tried as well. Cost: a distance and a few support searches a step. Where the two all
-//! but touch at the start, and the axis between their nearest points does not show that they move apart, a support
-//! search for each face and some of the edges.
+//! turns along with either body is tried as well. Cost: a distance and a few support searches a step; and where the two
+//! all but touch at the start, some more along the axes of the faces and edges there (`parting`).
 
 use super::passage::{Course, Moment, length, outlasts_rounded};
 use crate::polyhedron::closest::{Closest, Placed, closest};
