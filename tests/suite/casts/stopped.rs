@@ -235,6 +235,27 @@ fn what_all_but_touches_is_stopped_as_it_turns_in() {
     assert!(tried.iter().all(|&tried| tried > 1000), "{tried:?}");
 }
 
+/// A half-space that turns may leave what is as near as rounding, or be left.
+///
+/// Symptom: below 1e-13 m each such motion had an impact at its start.
+#[test]
+fn a_floor_that_turns_may_leave_what_stands_on_it() {
+    let cube = Shape3::from(Cuboid::from_half_extents(Vec3::splat(0.5)).unwrap());
+    let floor = Shape3::from(HalfSpace::new(Vec3::Y).unwrap());
+    for gap in [1e-15, 1e-14, 1e-13, 1e-12, 1e-9] {
+        let from = Pose3::at([-3.0, 0.5 + gap, 0.0]).unwrap();
+        let pair = Pair3::new(&cube, &from, &floor, &Pose3::IDENTITY);
+        assert!(!pair.overlaps(), "{gap}");
+        for turn in [-0.01, 0.01] {
+            let turn = Motion3::new(DVec3::ZERO, Quat::from_xyzw(0.0, 0.0, turn, 1.0)).unwrap();
+            let [up, down] = [1.0, -1.0].map(|way| Motion3::shift([0.0, way, 0.0]).unwrap());
+            assert_eq!(pair.impact(&up, &turn), None, "{gap}");
+            let stopped = pair.impact(&down, &turn).unwrap();
+            assert!(!stopped.overlapping && stopped.fraction < 1e-8, "{gap}: {stopped:?}");
+        }
+    }
+}
+
 /// What shares a point at the start touches, even if it turns away.
 #[test]
 fn what_touches_exactly_and_turns_away_is_an_impact_at_its_start() {

@@ -136,7 +136,9 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
             // An overlap beyond what an axis may be off by needs no test of features; without a bound, it does.
             let is_slight =
                 found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
-            let is_parting = found.at_least > least && course.parts_along(normal, until)
+            let comes_no_nearer =
+                || course.parts_along(normal, until) || course.leaves_plane(&moment, &found, until);
+            let is_parting = found.at_least > least && comes_no_nearer()
                 || is_slight && course.features_part(&moment, &found, least, until);
             return End::Unclear(here, is_parting);
         }
@@ -309,7 +311,13 @@ impl Course<'_> {
 
     /// The separation along an axis after a step in which every vertex moves along its own tangent: a lower bound, but
     /// for the curvature of the paths.
-    fn shown(&self, moment: &Moment, (axis, carrier): (DVec3, Carrier), closing: f64, step: f64) -> f64 {
+    pub(super) fn shown(
+        &self,
+        moment: &Moment,
+        (axis, carrier): (DVec3, Carrier),
+        closing: f64,
+        step: f64,
+    ) -> f64 {
         let [spin_a, spin_b] = moment.spins.map(|spin| spin * step);
         let [a, b] = [&moment.a, &moment.b];
         let takes_along =

@@ -49,8 +49,7 @@ fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3
     Some((axis, sway / (sine * sine)))
 }
 
-/// Some of the edges that a point of a core is on, or as near to: those at the vertex that reaches furthest along an
-/// axis, which they reach as far along.
+/// Some of the edges, at most `near` metres from a point of a core, at the vertex that reaches furthest along an axis.
 fn edges_at(solid: &Solid, axis: DVec3, point: DVec3, near: f64) -> ArrayVec<DVec3, MAX_EDGES> {
     let (vertex, local) = (solid.support(axis).vertex, solid.to_local(point));
     let is_on = |&edge: &usize| {
@@ -78,6 +77,17 @@ impl Course<'_> {
             pace += turn.bounds_within(0.0, until)[0] * arm.from_axis * (1.0 + 64.0 * f64::EPSILON);
         }
         pace <= 0.0
+    }
+
+    /// Whether a half-space and a core, of which one turns, never come nearer than they are at the start.
+    pub(super) fn leaves_plane(&self, moment: &Moment, found: &Closest, until: f64) -> bool {
+        let cores = [&moment.a, &moment.b].iter().filter(|placed| matches!(placed, Placed::Core(_))).count();
+        if cores != 1 || self.passage.is_straight() {
+            return false;
+        }
+        let at_end = self.shown(moment, (found.normal, None), self.closing(found.normal), until);
+        let bent = 0.5 * self.bend(moment, None, [0.0, until]) * until * until;
+        at_end - bent >= found.at_least
     }
 
     /// Whether an axis of their features shows a gap of at least `least` that never shrinks before the limit.
