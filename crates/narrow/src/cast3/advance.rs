@@ -113,17 +113,9 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         }
         let is_near = at_most <= course.slack + course.fineness.gap(doubt);
         let may_part = fraction == 0.0 && is_near && !passage.is_straight();
-        // Else it shows all the gap there is.
-        if may_part && found.at_least < 0.5 * at_most {
-            (found.normal, found.at_least) = course.sharpest(&moment, &found);
-        }
+        let apart = if may_part { course.turned_apart(&moment, &mut found, at_most, until) } else { None };
         let here = course.met(&moment, &found, (fraction, gap));
-        // Where they may touch, an exact test has to say so first; and beyond the aim, steps lead on.
-        if may_part
-            && found.at_least > 0.0
-            && found.at_least <= course.slack + course.fineness.rest(doubt)
-            && let Some((away, axis)) = course.turns_apart(&moment, &found, until)
-        {
+        if let Some((away, axis)) = apart {
             start = Some((here, f64::NEG_INFINITY));
             (fraction, towards, kept) = (away, axis, f64::NEG_INFINITY);
             continue;
@@ -132,15 +124,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
             if fraction > 0.0 {
                 return End::Met(start.map_or(here, |(start, _)| start));
             }
-            let (least, normal) = (-4.0 * doubt, found.normal);
-            // An overlap beyond what an axis may be off by needs no test of features; without a bound, it does.
-            let is_slight =
-                found.at_least > -course.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
-            let comes_no_nearer =
-                || course.parts_along(normal, until) || course.leaves_plane(&moment, &found, until);
-            let is_parting = found.at_least > least && comes_no_nearer()
-                || is_slight && course.features_part(&moment, &found, least, until);
-            return End::Unclear(here, is_parting);
+            return End::Unclear(here, course.comes_no_nearer(&moment, &found, until));
         }
         start = match start {
             _ if !is_near => None,

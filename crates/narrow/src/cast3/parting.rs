@@ -66,8 +66,38 @@ fn edges_at(solid: &Solid, axis: DVec3, point: DVec3, near: f64) -> ArrayVec<DVe
 }
 
 impl Course<'_> {
+    /// Makes the axis of two that all but touch at the start as good as it may be; and, if they turn apart, when, and the
+    /// axis as it is then.
+    pub(super) fn turned_apart(
+        &self,
+        moment: &Moment,
+        found: &mut Closest,
+        at_most: f64,
+        until: f64,
+    ) -> Option<(f64, DVec3)> {
+        // Else it shows all the gap there is.
+        if found.at_least < 0.5 * at_most {
+            (found.normal, found.at_least) = self.sharpest(moment, found);
+        }
+        // Where they may touch, an exact test has to say so first; and beyond the aim, steps lead on.
+        let aim = self.slack + self.fineness.rest(moment.precision.projection());
+        let is_within = found.at_least > 0.0 && found.at_least <= aim;
+        if is_within { self.turns_apart(moment, found, until) } else { None }
+    }
+
+    /// Whether two that may overlap at the start, by rounding, come no nearer than they are.
+    pub(super) fn comes_no_nearer(&self, moment: &Moment, found: &Closest, until: f64) -> bool {
+        let doubt = moment.precision.projection();
+        let least = -4.0 * doubt;
+        // An overlap beyond what an axis may be off by needs no test of features; without a bound, it does.
+        let is_slight = found.at_least > -self.fineness.rest(doubt) || found.at_least == f64::NEG_INFINITY;
+        let is_shown = found.at_least > least
+            && (self.parts_along(found.normal, until) || self.leaves_plane(moment, found, until));
+        is_shown || is_slight && self.features_part(moment, found, least, until)
+    }
+
     /// Whether the gap along an axis never shrinks before the limit, however fast bodies turn.
-    pub(super) fn parts_along(&self, axis: DVec3, until: f64) -> bool {
+    fn parts_along(&self, axis: DVec3, until: f64) -> bool {
         let mut pace = self.closing(axis);
         for ((turn, part), arm) in self.passage.turns.iter().zip(&self.parts).zip(&self.arms) {
             let Some(turn) = turn else { continue };
@@ -80,7 +110,7 @@ impl Course<'_> {
     }
 
     /// Whether a half-space and a core, of which one turns, never come nearer than they are at the start.
-    pub(super) fn leaves_plane(&self, moment: &Moment, found: &Closest, until: f64) -> bool {
+    fn leaves_plane(&self, moment: &Moment, found: &Closest, until: f64) -> bool {
         let cores = [&moment.a, &moment.b].iter().filter(|placed| matches!(placed, Placed::Core(_))).count();
         if cores != 1 || self.passage.is_straight() {
             return false;
@@ -91,14 +121,14 @@ impl Course<'_> {
     }
 
     /// Whether an axis of their features shows a gap of at least `least` that never shrinks before the limit.
-    pub(super) fn features_part(&self, moment: &Moment, found: &Closest, least: f64, until: f64) -> bool {
+    fn features_part(&self, moment: &Moment, found: &Closest, least: f64, until: f64) -> bool {
         let least = least + self.radii + moment.precision.projection();
         let parts = |axis: DVec3| self.parts_along(axis, until) && moment.gap_along(axis) > least;
         self.any_feature(moment, found, parts)
     }
 
     /// Of the axis between nearest points and those of features, the one that shows the greatest gap, and that.
-    pub(super) fn sharpest(&self, moment: &Moment, found: &Closest) -> (DVec3, f64) {
+    fn sharpest(&self, moment: &Moment, found: &Closest) -> (DVec3, f64) {
         let taken = self.radii + moment.precision.projection();
         let mut best = (found.normal, found.at_least);
         self.any_feature(moment, found, |axis| {
@@ -152,7 +182,7 @@ impl Course<'_> {
 
     /// When two that all but touch at the start are further apart along an axis than a step aims at, having come no
     /// nearer in between, and the axis as it is then.
-    pub(super) fn turns_apart(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
+    fn turns_apart(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
         let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
         let normal = found.normal;
         let apart = |sways: Sways| {

@@ -4,7 +4,7 @@
 //! beside the edge of a body that turns, a fixed axis shows no more than the far corner of that edge leaves: so an axis
 //! may turn along with either body.
 
-use super::Course;
+use super::{Course, Look};
 use asunder_geometry::glam::DVec2;
 
 /// Times at which two that all but touch at the start are looked at, to find them apart.
@@ -33,6 +33,12 @@ impl Course<'_> {
             }
         }
         best
+    }
+
+    /// A look along the sharpest axis.
+    pub(super) fn sharpened(&self, look: Look, now: f64) -> Look {
+        let (axis, least) = self.sharpest(look.axis, now);
+        if least > look.least { Look { axis, least, ..look } } else { look }
     }
 
     /// When two that turn, and all but touch at time zero, are further apart along an axis than a step aims at, having

@@ -67,7 +67,7 @@ impl Course<'_> {
             if now <= 0.0 && look.as_ref().is_none_or(|look| look.least <= self.slack) {
                 self.doubts_start.set(true);
             }
-            let Some(mut look) = look else {
+            let Some(look) = look else {
                 let touching = self.too_close(now, axis);
                 let beside = self.sharpest(touching.axis, now).0;
                 if now <= 0.0
@@ -81,12 +81,7 @@ impl Course<'_> {
                 return (!is_parting).then_some(touching);
             };
             let is_near = look.least <= self.aim || look.most <= self.enough;
-            if now <= 0.0 && is_near {
-                let (sharper, least) = self.sharpest(look.axis, now);
-                if least > look.least {
-                    look = Look { axis: sharper, least, ..look };
-                }
-            }
+            let look = if now <= 0.0 && is_near { self.sharpened(look, now) } else { look };
             axis = look.axis;
             let rest = self.times[1] - now;
             let gives_up = round == MAX_ROUNDS;
