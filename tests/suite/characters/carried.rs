@@ -89,11 +89,14 @@ fn nobody_is_carried_by_what_is_gone_or_off_or_out_of_range() {
     let mut world = World3::new();
     let lift = world.insert(block());
     let hero = Pose3::at([-0.0, 1.5, 0.0]).unwrap();
-    let ground = Obstacle3 { body: lift, normal: Vec3::Y, point: DVec3::Y * 0.5, part: 0 };
+    // At a corner of its foot; what is carried is below its position.
+    let corner = DVec3::new(0.75, 0.5, -0.25);
+    let ground = Obstacle3 { body: lift, normal: Vec3::Y, point: corner, part: 0 };
     let (walls, moved) = (Default::default(), DVec3::ZERO);
     let slide = Slide3 { pose: hero, moved, ground: Some(ground), walls, blocked: false, is_free: true };
     let walk = Walk3::new(&capsule(), Vec3::Y).unwrap();
     let footing = world.footing(&slide, &walk).unwrap();
+    assert_eq!((footing.body, footing.pose, footing.point), (lift, Pose3::IDENTITY, DVec3::Y * 0.5));
     world.set_pose(lift, Pose3::at([0.0, 1.0, 0.0]).unwrap()).unwrap();
     assert_eq!(world.carried(&footing, &hero), hero.shifted([0.0, 1.0, 0.0]).unwrap());
     let at_the_edge = Pose3::at([0.0, 1e9, 0.0]).unwrap();
@@ -193,6 +196,10 @@ fn a_seesaw_carries_the_feet_and_not_the_head() {
         let slide = world.move_and_slide((&ball, &rider), Vec2::NEG_Y * 0.01, &walk, &filter);
         rider = slide.pose;
         footing = world.footing(&slide, &walk).unwrap();
+        let (ground, on_plank) = (slide.ground.unwrap().point, *world.pose(plank).unwrap());
+        assert_eq!((footing.body, footing.pose), (plank, on_plank), "step {step}");
+        assert_eq!(footing.point.x, rider.position().x, "step {step}");
+        assert!((footing.point.y - ground.y).abs() < 1e-12, "step {step}: {} {ground}", footing.point);
         // Where a ball of this radius touches the plank, along it from the pivot, and how high it is above.
         let seen = world.pose(plank).unwrap().transform_back(rider.position());
         assert!((seen.y - 0.75 - gap).abs() < 0.25 * f64::from(walk.skin), "step {step}: {seen}");

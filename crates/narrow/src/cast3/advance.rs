@@ -113,7 +113,7 @@ pub(super) fn advance(course: &Course, until: f64) -> End {
         }
         let is_near = at_most <= course.slack + course.fineness.gap(doubt);
         let may_part = fraction == 0.0 && is_near && !passage.is_straight();
-        let apart = if may_part { course.turned_apart(&moment, &mut found, at_most, until) } else { None };
+        let apart = if may_part { course.turns_apart(&moment, &mut found, at_most, until) } else { None };
         let here = course.met(&moment, &found, (fraction, gap));
         if let Some((away, axis)) = apart {
             start = Some((here, f64::NEG_INFINITY));

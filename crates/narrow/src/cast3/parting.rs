@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! n  = of the axis between nearest points and those of features, the one that shows the greatest gap       (sharpest)
-//! m  = how n sways: not at all, along with either body, or staying square to an edge of each          (turns_apart)
+//! m  = how n sways: not at all, along with either body, or staying square to an edge of each     (apart_by_swaying)
 //! at h = all of the motion, a fourth of it, a 16th, ...
 //!   the gap along n + h m is clear, and so much greater than at the start that it was never smaller in between: apart
 //! ```
@@ -68,7 +68,7 @@ fn edges_at(solid: &Solid, axis: DVec3, point: DVec3, near: f64) -> ArrayVec<DVe
 impl Course<'_> {
     /// Makes the axis of two that all but touch at the start as good as it may be; and, if they turn apart, when, and the
     /// axis as it is then.
-    pub(super) fn turned_apart(
+    pub(super) fn turns_apart(
         &self,
         moment: &Moment,
         found: &mut Closest,
@@ -82,7 +82,7 @@ impl Course<'_> {
         // Where they may touch, an exact test has to say so first; and beyond the aim, steps lead on.
         let aim = self.slack + self.fineness.rest(moment.precision.projection());
         let is_within = found.at_least > 0.0 && found.at_least <= aim;
-        if is_within { self.turns_apart(moment, found, until) } else { None }
+        if is_within { self.apart_by_swaying(moment, found, until) } else { None }
     }
 
     /// Whether two that may overlap at the start, by rounding, come no nearer than they are.
@@ -182,7 +182,7 @@ impl Course<'_> {
 
     /// When two that all but touch at the start are further apart along an axis than a step aims at, having come no
     /// nearer in between, and the axis as it is then.
-    fn turns_apart(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
+    fn apart_by_swaying(&self, moment: &Moment, found: &Closest, until: f64) -> Option<(f64, DVec3)> {
         let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
         let normal = found.normal;
         let apart = |sways: Sways| {
@@ -210,7 +210,7 @@ impl Course<'_> {
         normal.dot(velocity) + sway.dot(on_b - on_a)
     }
 
-    /// The same as [`turns_apart`](Self::turns_apart) along one axis, and how fast the gap opens along it.
+    /// The same as [`apart_by_swaying`](Self::apart_by_swaying) along one axis, and how fast the gap opens along it.
     ///
     /// Along n + h m a vertex x of A reaches x.(n + h m), whose second derivative is no more than that of x times the
     /// axis' length and twice the speeds of both; and the radii count as many times as the axis is long. So in between,

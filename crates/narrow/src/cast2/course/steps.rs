@@ -1,8 +1,9 @@
 //! Steps along a motion, each certified: how long the gap between two parts certainly lasts.
 //!
 //! A step aims at a little more than the poses that are reported may be off. Two that turn and start nearer may move away,
-//! and do not end any nearer: if the axis of the first look shows that they part, they go on from where they have; else
-//! they take small steps, and are stopped where they started once they have come nearer.
+//! and do not end any nearer: if an axis beside that of the first look shows that they part (`parting`), they go on
+//! from where they have; else they take small steps, and are stopped where they started once they have come nearer, or
+//! once the steps run out.
 
 use super::{Course, Look, ROUNDED, Touching};
 use crate::counted::count_step;
