@@ -312,9 +312,12 @@ impl Pair3<'_> {
                         }
                         is_overlap_tested = true;
                         let is_touched = || self.parts(&passage.bases, a, b).convex.verdict().overlapping;
-                        if is_parting || !counts.is_all() && is_touched() {
+                        if !counts.is_all() && is_touched() {
                             return false;
                         }
+                        let Some(met) = end_of_apart(passage, [a, b], (met, is_parting), until) else {
+                            return false;
+                        };
                         met
                     }
                 };
@@ -385,6 +388,24 @@ fn by_steps(passage: &Passage, [a, b]: [Part; 2], stretch: &Stretch, until: f64)
     let course = Course::new(passage, [a, b], [&core_a, &core_b]);
     let quick = if passage.is_straight() { march(&course, stretch) } else { None };
     quick.unwrap_or_else(|| advance(&course, until))
+}
+
+/// Where two parts meet that do not touch at the start, as an exact test has shown after a search had left it open, and
+/// what that had found: [`End::Unclear`]. `None` if they do not meet.
+fn end_of_apart(
+    passage: &Passage,
+    [a, b]: [Part; 2],
+    (met, is_parting): (Met, bool),
+    until: f64,
+) -> Option<Met> {
+    if is_parting || passage.is_straight() {
+        return (!is_parting).then_some(met);
+    }
+    let (core_a, core_b) = (a.shape.core(), b.shape.core());
+    match advance(&Course::new(passage, [a, b], [&core_a, &core_b]).known_apart(), until) {
+        End::Apart => None,
+        End::Met(met) | End::Unclear(met, _) => Some(met),
+    }
 }
 
 /// Two spheres, which are their own bounding spheres; `None` if they all but touch at the start.

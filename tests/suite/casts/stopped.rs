@@ -4,7 +4,7 @@ use super::finite;
 use super::moving::displacement;
 use asunder::{Collider3, Filter3, World3};
 use asunder_geometry::glam::{DVec3, Quat, Vec3};
-use asunder_geometry::{Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Shape3, Sphere};
+use asunder_geometry::{Compound3, Cuboid, HalfSpace, Hull, Motion3, Pose3, Shape3, Sphere, TriMesh};
 use asunder_narrow::{Impact3, Pair3, Separation3};
 use asunder_tests::cases::Random;
 use asunder_tests::shapes::{KINDS3, pair3};
@@ -181,7 +181,71 @@ fn what_was_stopped_may_turn_away() {
         }
     }
     // Some part too slowly beside how fast they turn for an axis to show it.
-    let are_free = parting.iter().zip(&held).all(|(parting, held)| *parting > 1000 && held * 200 <= *parting);
+    let are_free =
+        parting.iter().zip(&held).all(|(parting, held)| *parting > 1000 && held * 1000 <= *parting);
+    assert!(are_free, "{held:?} of {parting:?} held");
+}
+
+/// What is as near as numbers can show, and then moves away and turns a little, goes on.
+///
+/// Symptom: one in nine of such motions had an impact at their start. Cause: only an exact test shows that they are
+/// apart, and after it nobody looked for the axes of features, which show that they part.
+#[test]
+fn what_is_as_near_as_numbers_show_may_turn_away() {
+    let (mut parting, mut held) = ([0; 2], [0; 2]);
+    for seed in 0..6000 {
+        let mut random = Random::new(seed + 660_000);
+        let random = &mut random;
+        let is_ground = seed % 4 == 0;
+        let a = random.shape3();
+        let b = if is_ground {
+            let corners = [(); 4].map(|()| random.vector().as_vec3());
+            let Ok(roof) = TriMesh::new(corners, [[0, 1, 2], [2, 1, 3]]) else { continue };
+            Shape3::from(roof)
+        } else {
+            random.shape3()
+        };
+        let size = finite(a.outer_radius()) + finite(b.outer_radius());
+        let from_b = Pose3::new(random.vector() * 0.1, random.quaternion()).unwrap();
+        let away = random.direction();
+        let rotation = random.quaternion();
+        let at = |height: f64| Pose3::new(from_b.position() + away * height, rotation).unwrap();
+        let overlaps = |height: f64| Pair3::new(&a, &at(height), &b, &from_b).overlaps();
+        let (mut near, mut apart) = (0.0, 3.0 * size);
+        let Some(down) = Pair3::new(&a, &at(apart), &b, &from_b).cast((away * -apart).as_vec3()) else {
+            continue;
+        };
+        if !overlaps(near) {
+            continue;
+        }
+        // The last place but one, by exact tests.
+        loop {
+            let middle = 0.5 * (near + apart);
+            if middle <= near || middle >= apart {
+                break;
+            }
+            *(if overlaps(middle) { &mut near } else { &mut apart }) = middle;
+        }
+        // Every point moves away: none turns as fast.
+        let arm = a.center().length() + finite(a.outer_radius()) as f32;
+        let spin = (random.direction() * random.between(0.0, 0.1)).as_vec3() * (size as f32 / arm);
+        let [x, y, z] = spin.to_array();
+        let turn = Quat::from_xyzw(x, y, z, 1.0) * rotation;
+        let way = (-down.normal.as_dvec3() + random.direction() * 0.1) * size;
+        let ride = Ride {
+            shapes: [&a, &b],
+            from: [at(apart), from_b],
+            motions: [Motion3::new(way, turn).unwrap(), Motion3::STILL],
+        };
+        // Poses on the way are rounded.
+        let mut moments = (0..24).map(|power| 1.0 / (1_u64 << (2 * power)) as f64);
+        if moments.all(|at| !ride.at(at).overlaps()) {
+            let kind = usize::from(is_ground);
+            parting[kind] += 1;
+            held[kind] += usize::from(ride.impact().is_some_and(|impact| impact.fraction < 1e-6));
+        }
+    }
+    let are_free = parting.iter().zip(&held).all(|(parting, held)| *parting > 500 && held * 1000 <= *parting);
     assert!(are_free, "{held:?} of {parting:?} held");
 }
 

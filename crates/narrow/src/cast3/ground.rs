@@ -20,7 +20,7 @@ use super::advance::{End, Met};
 use super::beyond::MOMENTS;
 use super::counts::Counts;
 use super::passage::Passage;
-use super::{impact_of, part_end};
+use super::{end_of_apart, impact_of, part_end};
 use crate::ground3::{Corners, Facing, OnGround, Touched, Viewpoint};
 use crate::impact3::Impact3;
 use crate::pair3::{Pair3, Part};
@@ -182,14 +182,13 @@ impl Search<'_> {
             End::Apart => return until,
             End::Met(met) => met,
             End::Unclear(met, is_parting) => {
-                let parts = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
-                if parts.convex.verdict().overlapping {
+                let both = self.pair.parts(&self.passage.bases, parts[0], parts[1]);
+                if both.convex.verdict().overlapping {
                     self.touches = self.counts.is_all();
                     return if self.touches { -1.0 } else { until };
                 }
-                if is_parting {
-                    return until;
-                }
+                let met = end_of_apart(self.passage, parts, (met, is_parting), until);
+                let Some(met) = met else { return until };
                 met
             }
         };

@@ -49,17 +49,15 @@ fn square_to([one, other]: [DVec3; 2], [spin_a, spin_b]: [DVec3; 2], side: DVec3
     Some((axis, sway / (sine * sine)))
 }
 
-/// Some of the edges, at most `near` metres from a point of a core, at the vertex that reaches furthest along an axis.
-fn edges_at(solid: &Solid, axis: DVec3, point: DVec3, near: f64) -> ArrayVec<DVec3, MAX_EDGES> {
-    let (vertex, local) = (solid.support(axis).vertex, solid.to_local(point));
+/// Some of the edges at most `near` metres from a point of a core.
+fn edges_at(solid: &Solid, point: DVec3, near: f64) -> ArrayVec<DVec3, MAX_EDGES> {
+    let local = solid.to_local(point);
     let is_on = |&edge: &usize| {
         let (from, to) = solid.topology.ends(edge);
-        (from == vertex || to == vertex) && {
-            let [from, to] = [from, to].map(|end| solid.vertices[end].as_dvec3());
-            let (along, aside) = (to - from, local - from);
-            let share = (along.dot(aside) / along.length_squared()).clamp(0.0, 1.0);
-            (along * share - aside).length_squared() <= near * near
-        }
+        let [from, to] = [from, to].map(|end| solid.vertices[end].as_dvec3());
+        let (along, aside) = (to - from, local - from);
+        let share = (along.dot(aside) / along.length_squared()).clamp(0.0, 1.0);
+        (along * share - aside).length_squared() <= near * near
     };
     let edges = solid.topology.edges().iter().map(|&edge| usize::from(edge));
     edges.filter(is_on).map(|edge| solid.edge_direction(edge)).take(MAX_EDGES).collect()
@@ -79,9 +77,9 @@ impl Course<'_> {
         if found.at_least < 0.5 * at_most {
             (found.normal, found.at_least) = self.sharpest(moment, found);
         }
-        // Where they may touch, an exact test has to say so first; and beyond the aim, steps lead on.
+        // Where they may touch, an exact test has to say first that they do not; and beyond the aim, steps lead on.
         let aim = self.slack + self.fineness.rest(moment.precision.projection());
-        let is_within = found.at_least > 0.0 && found.at_least <= aim;
+        let is_within = (found.at_least > 0.0 || self.are_apart) && found.at_least <= aim;
         if is_within { self.apart_by_swaying(moment, found, until) } else { None }
     }
 
@@ -172,7 +170,7 @@ impl Course<'_> {
                 return true;
             }
         }
-        let [of_a, of_b] = [edges_at(a, normal, on_a, near), edges_at(b, -normal, on_b, near)];
+        let [of_a, of_b] = [edges_at(a, on_a, near), edges_at(b, on_b, near)];
         of_a.iter().any(|&one| {
             of_b.iter().any(|&other| {
                 square_to([one, other], [DVec3::ZERO; 2], normal).is_some_and(|(axis, _)| is_wanted(axis))
@@ -194,8 +192,7 @@ impl Course<'_> {
             return Some(apart);
         }
         let near = self.fineness.rest(moment.precision.projection());
-        let [of_a, of_b] =
-            [edges_at(a, normal, found.points[0], near), edges_at(b, -normal, found.points[1], near)];
+        let [of_a, of_b] = [edges_at(a, found.points[0], near), edges_at(b, found.points[1], near)];
         let mut pairs = of_a.iter().flat_map(|&one| of_b.iter().map(move |&other| [one, other]));
         pairs.find_map(|edges| square_to(edges, moment.spins, normal).and_then(apart))
     }

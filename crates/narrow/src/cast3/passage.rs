@@ -50,6 +50,8 @@ pub(super) struct Course<'a> {
     /// For each part, how far its core reaches from its body's axis of turning, in metres, and from its body's
     /// position.
     pub(super) arms: [Arm; 2],
+    /// Whether an exact test has shown that the two do not touch at the start.
+    pub(super) are_apart: bool,
 }
 
 /// How near is near enough: in metres, but at least a few roundings of a projection.
@@ -311,7 +313,9 @@ impl<'a> Course<'a> {
         let arms = [0, 1].map(|i| passage.arm(i, &parts[i], cores[i]));
         let fineness = Fineness { gap: IMPACT_GAP * size, rest: IMPACT_REST * size };
         let core_size = (size - radii).max(0.0);
-        let mut course = Self { passage, parts, cores, radii, fineness, slack: 0.0, size, core_size, arms };
+        let (slack, are_apart) = (0.0, false);
+        let mut course =
+            Self { passage, parts, cores, radii, fineness, slack, size, core_size, arms, are_apart };
         let furthest = passage.between.length() + passage.drift.length();
         course.slack = passage.rounding + course.turned(furthest);
         course
@@ -320,6 +324,11 @@ impl<'a> Course<'a> {
     /// The same course, with another limit for how near counts as met.
     pub(super) fn refined_to(self, fineness: Fineness) -> Self {
         Self { fineness, ..self }
+    }
+
+    /// The same course of two that, as an exact test has shown, do not touch at the start.
+    pub(super) fn known_apart(self) -> Self {
+        Self { are_apart: true, ..self }
     }
 
     /// Both parts as they stand at a fraction.
