@@ -30,12 +30,27 @@ pub(crate) struct Precision {
     pub(crate) roundings: f64,
 }
 
-/// Rounding error of a projection in space, for bodies and for parts of compounds; for a part, two rotations and two
-/// shifts are applied in place of one.
-pub(crate) const IN_SPACE: [f64; 2] = [44.0, 128.0];
+/// Rounding error of a projection, in units of 2^-53 of the reach.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Roundings {
+    /// For points of bodies.
+    pub(crate) of_bodies: f64,
+    /// For points of parts of compounds: two rotations and two shifts are applied in place of one.
+    pub(crate) of_parts: f64,
+}
 
-/// Rounding error of a projection in the plane, where the stored matrix is used as it stands: for bodies and for parts.
-pub(crate) const IN_PLANE: [f64; 2] = [10.0, 16.0];
+impl Roundings {
+    #[inline]
+    pub(crate) const fn of_either(self, has_parts: bool) -> f64 {
+        if has_parts { self.of_parts } else { self.of_bodies }
+    }
+}
+
+/// Roundings in space.
+pub(crate) const IN_SPACE: Roundings = Roundings { of_bodies: 44.0, of_parts: 128.0 };
+
+/// Roundings in the plane, where the stored matrix is used as it stands.
+pub(crate) const IN_PLANE: Roundings = Roundings { of_bodies: 10.0, of_parts: 16.0 };
 
 /// An upper bound on the length of a vector: a sum of coordinates needs no root.
 #[inline]
@@ -66,7 +81,7 @@ impl Precision {
     /// For two bodies in space whose separation is a closed form, in the world's axes.
     #[inline]
     pub(crate) const fn of_closed_form(reach: f64) -> Self {
-        Self { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[0] }
+        Self { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE.of_bodies }
     }
 
     /// Whether a distance and the projection of all corners on its axis agree up to rounding, so that the bound of
@@ -165,7 +180,7 @@ mod tests {
 
     #[test]
     fn errors_grow_with_reach_value_and_what_was_left_out() {
-        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0, roundings: IN_SPACE[0] };
+        let small = Precision { size: 1.0, reach: 2.0, planarity: 0.0, roundings: IN_SPACE.of_bodies };
         assert!(small.of_separation(0.0, 0.0) < small.of_separation(100.0, 0.0));
         assert!(small.of_separation(0.0, 0.0) < Precision { reach: 1e9, ..small }.of_separation(0.0, 0.0));
         assert!(small.of_separation(0.0, 0.0) < small.of_separation(0.0, 1e-9));

@@ -31,7 +31,7 @@ impl Wholes2<'_> {
             [0, 1].map(|i| Reaches::of_balls(balls(self.shapes[i], self.turns[i], along[i]), DVec2::ZERO));
         let mut shadow = Shadow { a, b, between: direction.dot(self.between), needed: 0.0 };
         let reach = self.between.length() + shadow.summed();
-        let roundings = IN_PLANE[1] + OF_SEARCH;
+        let roundings = IN_PLANE.of_parts + OF_SEARCH;
         let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings };
         shadow.needed = limit + precision.projection();
         if shadow.parts_wholes() {

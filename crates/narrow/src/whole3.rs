@@ -32,7 +32,7 @@ impl Wholes3<'_> {
         let [a, b] = [0, 1].map(|i| Reaches::of_balls(balls(self.shapes[i], local[i]), DVec3::ZERO));
         let mut shadow = Shadow { a, b, between: direction.dot(self.between), needed: 0.0 };
         let reach = self.between.length() + shadow.summed();
-        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE[1] };
+        let precision = Precision { size: 0.0, reach, planarity: 0.0, roundings: IN_SPACE.of_parts };
         shadow.needed = limit + precision.projection();
         if shadow.parts_wholes() {
             return Some((shadow, direction));

@@ -68,7 +68,7 @@ pub(super) fn sweep(
     // The reach as at a moment of any course, and the way from there.
     let way = (length(passage.between) + stretch.from * pace) / 32.0 + span * pace;
     let reach = size + length(shift_a) + length(shift_b) + length(between) + way;
-    let doubt = IN_SPACE[1] * (f64::EPSILON / 2.0) * reach;
+    let doubt = IN_SPACE.of_parts * (f64::EPSILON / 2.0) * reach;
     let drift = basis_a.turn_back(passage.drift);
     let later = 1e-10 * size / pace;
     let (enter, leave, axis) =

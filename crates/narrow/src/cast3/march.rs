@@ -71,7 +71,8 @@ pub(super) fn march(course: &Course, stretch: &Stretch) -> Option<End> {
     let moment = course.at(stretch.from);
     let (Placed::Core(a), Placed::Core(b)) = (&moment.a, &moment.b) else { return None };
     let (drift, span) = (course.passage.drift, stretch.to - stretch.from);
-    let doubt = moment.precision.projection() + IN_SPACE[1] * (f64::EPSILON / 2.0) * length(drift) * span;
+    let doubt =
+        moment.precision.projection() + IN_SPACE.of_parts * (f64::EPSILON / 2.0) * length(drift) * span;
     let rest = course.fineness.rest(doubt);
     let march = March { a, b, drift, taken: course.radii + course.slack + doubt };
     let enough = if course.radii > 0.0 { course.fineness.gap(doubt) } else { 4.0 * rest };

@@ -152,7 +152,7 @@ impl Fall<'_> {
     /// How far off the height may be.
     fn doubt(&self, fraction: f64) -> f64 {
         let way = (fraction - self.over.from) * length(self.over.passage.drift);
-        IN_SPACE[1] * (f64::EPSILON / 2.0) * (self.over.reach + way)
+        IN_SPACE.of_parts * (f64::EPSILON / 2.0) * (self.over.reach + way)
     }
 
     /// A lower bound on the height, in whatever way poses are rounded.

@@ -349,7 +349,12 @@ impl<'a> Course<'a> {
             a: placed((a, self.cores[0]), basis_a, shift_a, false),
             b: placed((b, self.cores[1]), basis_b, between + shift_b, true),
             between,
-            precision: Precision { size: self.core_size, reach, planarity: 0.0, roundings: IN_SPACE[1] },
+            precision: Precision {
+                size: self.core_size,
+                reach,
+                planarity: 0.0,
+                roundings: IN_SPACE.of_parts,
+            },
             spins: [spin(0), spin(1)],
         }
     }

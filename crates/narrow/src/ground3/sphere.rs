@@ -75,7 +75,7 @@ impl Pair3<'_> {
             return false;
         }
         let separation = signed(distance - radius, false);
-        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
+        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE.of_parts };
         let error = precision.of_distance(distance - radius, error.max(distance - lowest));
         let towards = on.basis.turn(away / distance);
         let normal = if on.is_b { -towards } else { towards }.as_vec3();

@@ -81,7 +81,7 @@ impl Ball<'_> {
         let round = f64::from(self.cuboid.radius());
         let (size, radii) = (f64::from(self.cuboid.outer_radius()) - round, round + f64::from(self.radius));
         let reach = size + radii + center.abs().element_sum();
-        let precision = Precision { size, reach, planarity: 0.0, roundings: IN_SPACE[0] };
+        let precision = Precision { size, reach, planarity: 0.0, roundings: IN_SPACE.of_bodies };
         InCuboidAxes { ball: self, basis, nearest, precision, separation: nearest.separation - radii }
     }
 

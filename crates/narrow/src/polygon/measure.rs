@@ -72,7 +72,7 @@ impl Measure {
         let off_center = length(a.center().as_dvec2()) + length(b.center().as_dvec2());
         let further = off_center + length(offset) + summed.unwrap_or(0.0);
         let searched = if is_searched(a) || is_searched(b) { OF_SEARCH } else { 0.0 };
-        let roundings = IN_PLANE[usize::from(summed.is_some())] + searched;
+        let roundings = IN_PLANE.of_either(summed.is_some()) + searched;
         Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, roundings)
     }
 
@@ -81,7 +81,7 @@ impl Measure {
     pub(super) fn of_rects([a, b]: [&Rect; 2], offset: DVec2) -> Self {
         let radii = [f64::from(a.radius()), f64::from(b.radius())];
         let further = offset.abs().element_sum();
-        Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, IN_PLANE[0])
+        Self::of_radii([a.outer_radius(), b.outer_radius()], radii, further, IN_PLANE.of_bodies)
     }
 
     /// From the bounding radii, the radii of rounding, the sum of what else enters a coordinate, and the rounding error

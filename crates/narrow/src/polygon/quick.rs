@@ -66,7 +66,7 @@ impl Bodies<'_> {
             let halves = [a.half_extents().as_dvec2(), b.half_extents().as_dvec2()];
             let size = f64::from(a.outer_radius()) + f64::from(b.outer_radius());
             let reach = size + self.between.abs().element_sum();
-            let precision = Precision { size, reach, planarity: 0.0, roundings: IN_PLANE[0] };
+            let precision = Precision { size, reach, planarity: 0.0, roundings: IN_PLANE.of_bodies };
             let (top, doubt) =
                 (Rects::new(halves, self.turns, self.between).top(), 2.0 * precision.projection());
             return if top > doubt || top < -doubt { Some(top < 0.0) } else { None };

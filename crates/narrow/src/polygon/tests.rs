@@ -135,7 +135,7 @@ fn precision(a: &Shape2, b: &Shape2, offset: DVec2) -> Precision {
     let center = |shape: &Shape2| shape.center().as_dvec2().length();
     let size = f64::from(a.outer_radius() + b.outer_radius());
     let reach = size + center(a) + center(b) + 1.5 * offset.length();
-    Precision { size, reach, planarity: 0.0, roundings: IN_PLANE[0] + 4.0 }
+    Precision { size, reach, planarity: 0.0, roundings: IN_PLANE.of_bodies + 4.0 }
 }
 
 /// Two polygons of up to `most` vertices, with B's centre at some share of both radii.

@@ -129,7 +129,7 @@ impl<'a> Convex<'a> {
             size,
             reach: size + radii + off_center + length_at_most(offset) + summed,
             planarity: planarity(shape_a) + planarity(shape_b),
-            roundings: IN_SPACE[usize::from(sites.iter().any(|site| site.part.is_some()))],
+            roundings: IN_SPACE.of_either(sites.iter().any(|site| site.part.is_some())),
         };
         Self { sites, shape_a, shape_b, relative, offset, precision, radii }
     }

@@ -52,7 +52,7 @@ impl GroundQuery<'_> {
         [manifold.part_a, manifold.part_b] = on.in_order([part, group.base.patch]);
         let towards = on.basis.turn(group.base.normal);
         manifold.normal = if on.is_b { -towards } else { towards }.as_vec3();
-        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE[1] };
+        let precision = Precision { size: 0.0, reach: 0.0, planarity: 0.0, roundings: IN_SPACE.of_parts };
         let off = (f64::from(separation) - deepest).abs();
         let error = precision.of_distance(deepest, doubt + hidden + off);
         (manifold.separation, manifold.error) = (separation, error);

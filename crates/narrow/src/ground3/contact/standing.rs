@@ -305,7 +305,7 @@ pub(in crate::ground3) fn span_of([a, b, c]: &[DVec3; 3]) -> DVec3 {
 /// ground.
 #[inline]
 pub(in crate::ground3) fn doubt_of(lengths: f64, ground: DVec3) -> f64 {
-    IN_SPACE[1] * (f64::EPSILON / 2.0) * (lengths + ground.abs().element_sum())
+    IN_SPACE.of_parts * (f64::EPSILON / 2.0) * (lengths + ground.abs().element_sum())
 }
 
 /// Whether a cross product of edges of the triangle and of a box shows that they are further apart than `beyond`

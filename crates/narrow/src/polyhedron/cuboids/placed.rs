@@ -124,7 +124,7 @@ impl Size {
     pub(super) fn precision(size: f64, sum: f64, offset: DVec3) -> Precision {
         let [x, y, z] = offset.to_array();
         let reach = sum + (x.abs() + y.abs() + z.abs());
-        Precision { size, reach, planarity: 0.0, roundings: IN_SPACE[0] }
+        Precision { size, reach, planarity: 0.0, roundings: IN_SPACE.of_bodies }
     }
 }
 
