@@ -3,6 +3,7 @@
 //! The oracles are exact overlap, heights of vertices over planes, manifolds made anew at the same poses, and drifts
 //! measured at the vertices.
 
+mod deepest;
 mod floors;
 mod spikes;
 
