@@ -29,8 +29,11 @@ pub enum Kind {
     Rest(Bodies),
     /// The same on a plane.
     Flat(Bodies),
-    /// A frame with bodies that move by two centimetres.
+    /// A frame with bodies that move by two centimetres, straight: over hills they sink by up to a centimetre, or leave
+    /// the ground.
     Roll(Bodies),
+    /// A frame with bodies that roll by two centimetres, a millimetre deep in the ground all the way.
+    Tumble(Bodies),
     /// A slanted ray from above.
     Rays,
     /// A query for one body and the ground.
@@ -101,7 +104,7 @@ const BODIES: usize = 1000;
 pub fn cases(effort: &Effort) -> Vec<Case> {
     let frames = Bodies::ALL
         .into_iter()
-        .flat_map(|bodies| [Kind::Rest(bodies), Kind::Flat(bodies), Kind::Roll(bodies)]);
+        .flat_map(|bodies| [Kind::Rest, Kind::Flat, Kind::Roll, Kind::Tumble].map(|kind| kind(bodies)));
     let of_question = |question| Bodies::ALL.map(|bodies| Kind::Asked(question, bodies));
     let asked = Question::ALL.into_iter().flat_map(of_question);
     let kinds: Vec<Kind> = frames.chain([Kind::Rays]).chain(asked).chain([Kind::Build]).collect();
@@ -120,6 +123,7 @@ pub fn name(&(kind, triangles): &Case) -> String {
         Kind::Rest(bodies) => format!("rest/{}", bodies.name()),
         Kind::Flat(bodies) => format!("flat/{}", bodies.name()),
         Kind::Roll(bodies) => format!("roll/{}", bodies.name()),
+        Kind::Tumble(bodies) => format!("tumble/{}", bodies.name()),
         Kind::Rays => "rays".into(),
         Kind::Asked(question, bodies) => format!("{}/{}", question.name(), bodies.name()),
         Kind::Build => "build".into(),
@@ -157,9 +161,14 @@ pub fn measure(case: &Case, effort: &Effort) -> Result<Row, Box<dyn Error>> {
             asked::bodies(&terrain, (question, &body), effort, row("question", triangles))
         }
         Kind::Rest(bodies) | Kind::Flat(bodies) => {
-            frames(&terrain, bodies, 1e-4, effort, row("frame", BODIES))
+            let standing = Standing::new(&terrain, bodies, 1e-4)?;
+            frames(&standing, effort, row("frame", BODIES))
         }
-        Kind::Roll(bodies) => frames(&terrain, bodies, 0.02, effort, row("frame", BODIES)),
+        Kind::Roll(bodies) => frames(&Standing::new(&terrain, bodies, 0.02)?, effort, row("frame", BODIES)),
+        Kind::Tumble(bodies) => {
+            let standing = Standing::new(&terrain, bodies, 0.02)?.tumbling(&terrain)?;
+            frames(&standing, effort, row("frame", BODIES))
+        }
     }
 }
 
@@ -167,14 +176,7 @@ fn mesh_of(terrain: &Terrain) -> Result<Shape3, Box<dyn Error>> {
     Ok(TriMesh::new(terrain.vertices(), terrain.triangles())?.into())
 }
 
-fn frames(
-    terrain: &Terrain,
-    bodies: Bodies,
-    step: f64,
-    effort: &Effort,
-    mut row: Row,
-) -> Result<Row, Box<dyn Error>> {
-    let standing = Standing::new(terrain, bodies)?;
+fn frames(standing: &Standing, effort: &Effort, mut row: Row) -> Result<Row, Box<dyn Error>> {
     let mut ours = Ours3::new(&standing.bodies)?;
     let mut shapes = Shapes::default();
     let convert = |body: &Body3| {
@@ -188,7 +190,7 @@ fn frames(
     let mut race = Race::default();
     while !race.is_over(effort) {
         let frame = race.ours.len() + 1;
-        let poses = standing.poses(frame, step)?;
+        let poses = standing.poses(frame)?;
         let converted: Vec<(u32, Pose)> = poses.iter().map(|(i, pose)| (*i, parry::pose(pose))).collect();
         let (walked, peer_walked) = race.turn(1, || ours.frame(&poses), || peer_frame(&mut peer, &converted));
         if frame == 1 {
@@ -200,16 +202,23 @@ fn frames(
     Ok(row)
 }
 
-/// Bodies on the ground.
+/// Frames after which bodies turn back.
+const THERE: usize = 20;
+
+/// Bodies on the ground, which move back and forth.
 struct Standing {
     /// All bodies, the ground first.
     bodies: Vec<Body3>,
     /// The direction in which each of them moves, along the ground.
     ways: Vec<DVec3>,
+    /// How far they move in a frame, in metres.
+    step: f64,
+    /// The poses of each body on its way there; none if it moves straight.
+    paths: Vec<Vec<Pose3>>,
 }
 
 impl Standing {
-    fn new(terrain: &Terrain, bodies: Bodies) -> Result<Self, Box<dyn Error>> {
+    fn new(terrain: &Terrain, bodies: Bodies, step: f64) -> Result<Self, Box<dyn Error>> {
         let mut random = Random::new(21);
         let ground = mesh_of(terrain)?;
         let body = |shape: Shape3, pose, fixed| Body3 {
@@ -220,22 +229,15 @@ impl Standing {
             sensor: false,
             owner: None,
         };
-        let mut standing =
-            Self { bodies: vec![body(ground.clone(), Pose3::IDENTITY, true)], ways: Vec::new() };
+        let floor = body(ground.clone(), Pose3::IDENTITY, true);
+        let mut standing = Self { bodies: vec![floor], ways: Vec::new(), step, paths: Vec::new() };
         let across = (BODIES as f64).sqrt().ceil() as usize;
         let spacing = (terrain.side() - 4.0) / across as f64;
         for number in 0..BODIES {
             let cell = [number % across, number / across].map(|i| (i as f64 + 0.5) * spacing + 2.0);
             let shape = shape_of(bodies, &mut random)?;
-            let (height, normal) = terrain.under(cell);
-            // Down until it touches, then a millimetre further.
-            let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
-            let above = Pose3::new(DVec3::new(cell[0], height, cell[1]) + normal, upright)?;
-            let down = normal * -2.0;
-            let fraction = Pair3::new(&shape, &above, &ground, &Pose3::IDENTITY)
-                .cast(down.as_vec3())
-                .map_or(0.5, |impact| impact.fraction);
-            let pose = Pose3::new(above.position() + down * fraction - normal * 1e-3, upright)?;
+            let (_, normal) = terrain.under(cell);
+            let pose = set_down((terrain, &ground), &shape, cell, Quat::IDENTITY)?;
             let any = random.direction();
             standing
                 .ways
@@ -245,26 +247,71 @@ impl Standing {
         Ok(standing)
     }
 
+    /// The same bodies, which roll, and follow the ground.
+    fn tumbling(mut self, terrain: &Terrain) -> Result<Self, Box<dyn Error>> {
+        let ground = mesh_of(terrain)?;
+        let movers = self.bodies.iter().skip(1).zip(&self.ways);
+        let path = |(body, along): (&Body3, &DVec3)| {
+            let from = body.pose.position();
+            let pose = |frame: usize| {
+                let way = self.step * frame as f64;
+                let [x, z] = [from.x + along.x * way, from.z + along.z * way];
+                // As far as it moves, over the radius of a ball of its size.
+                let half = DVec3::Y.cross(*along) * (0.5 * way / f64::from(HALF));
+                let [a, b, c] = half.as_vec3().to_array();
+                set_down((terrain, &ground), &body.shape, [x, z], Quat::from_xyzw(a, b, c, 1.0).normalize())
+            };
+            (0..=THERE).map(pose).collect()
+        };
+        self.paths = movers.map(path).collect::<Result<_, _>>()?;
+        Ok(self)
+    }
+
     /// The poses of the bodies in a frame: back and forth, within a metre of where they began.
-    fn poses(&self, frame: usize, step: f64) -> Result<Vec<(u32, Pose3)>, Box<dyn Error>> {
-        let turn = frame % 40;
-        let way = step * (if turn < 20 { turn } else { 40 - turn }) as f64;
+    fn poses(&self, frame: usize) -> Result<Vec<(u32, Pose3)>, Box<dyn Error>> {
+        let turn = frame % (2 * THERE);
+        let there = if turn < THERE { turn } else { 2 * THERE - turn };
         let moved = self.bodies.iter().skip(1).zip(&self.ways).zip(1..);
         moved
             .map(|((body, along), number)| {
-                let pose = Pose3::new(body.pose.position() + *along * way, body.pose.rotation())?;
+                let pose = match self.paths.get(number as usize - 1) {
+                    Some(path) => path[there],
+                    None => body.pose.shifted(*along * (self.step * there as f64))?,
+                };
                 Ok((number, pose))
             })
             .collect()
     }
 }
 
+/// The pose of a body over a place that stands on the ground there, turned from upright: it is let down until it
+/// touches, and a millimetre further.
+fn set_down(
+    (terrain, ground): (&Terrain, &Shape3),
+    shape: &Shape3,
+    cell: [f64; 2],
+    turn: Quat,
+) -> Result<Pose3, Box<dyn Error>> {
+    let (height, normal) = terrain.under(cell);
+    let upright = Quat::from_rotation_arc(Vec3::Y, normal.as_vec3());
+    let above = Pose3::new(DVec3::new(cell[0], height, cell[1]) + normal, turn * upright)?;
+    let down = normal * -2.0;
+    let fraction = Pair3::new(shape, &above, ground, &Pose3::IDENTITY)
+        .cast(down.as_vec3())
+        .map_or(0.5, |impact| impact.fraction);
+    Ok(above.shifted(down * fraction - normal * 1e-3)?)
+}
+
+/// Half the width of every body, in metres.
+const HALF: f32 = 0.4;
+
 fn shape_of(bodies: Bodies, random: &mut Random) -> Result<Shape3, Box<dyn Error>> {
     Ok(match bodies {
-        Bodies::Boxes => Cuboid::from_half_extents(Vec3::splat(0.4))?.into(),
-        Bodies::Spheres => Sphere::new(0.4)?.into(),
+        Bodies::Boxes => Cuboid::from_half_extents(Vec3::splat(HALF))?.into(),
+        Bodies::Spheres => Sphere::new(HALF)?.into(),
         Bodies::Hulls => {
-            let points: Vec<Vec3> = (0..32).map(|_| (random.direction() * 0.4).as_vec3()).collect();
+            let points: Vec<Vec3> =
+                (0..32).map(|_| (random.direction() * f64::from(HALF)).as_vec3()).collect();
             Hull::from_points(&points)?.into()
         }
     })

@@ -32,6 +32,7 @@ const HEADLINES: [&str; 16] = [
     "`mostly_static`",
     "`mesh rest/box/20k`",
     "`mesh roll/box/20k`",
+    "`mesh tumble/box/20k`",
 ];
 
 /// The table as README shows it: its headlines, and the rows that are folded away.
