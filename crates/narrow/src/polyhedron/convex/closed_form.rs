@@ -84,7 +84,8 @@ impl Convex<'_> {
 
     /// The result of the pair's kernel in closed form; `None` for two solids.
     ///
-    /// Those are told by their kinds first, without a call: 3 to 10 % of the time of an overlap test of two hulls.
+    /// Those are told by their kinds first, without a call: 2 % of an overlap test of two hulls (AMD EPYC, Zen 5,
+    /// 2026-12-01).
     #[inline]
     pub(super) fn closed_form(&self) -> Option<ClosedForm> {
         let is_solid = |shape: &Shape3| match shape {
