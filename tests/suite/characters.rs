@@ -3,6 +3,7 @@
 
 mod carried;
 mod edges;
+mod ends;
 mod freeing;
 mod orders;
 mod parts;

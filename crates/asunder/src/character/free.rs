@@ -2,7 +2,7 @@
 
 use super::{Freed, Gap, Linear, Walks};
 use crate::collider::Collider;
-use crate::query::{Filter, Met, bodies_along_ray, bodies_over, visit_bodies_in};
+use crate::query::{Enter, Filter, Met, bodies_along_ray, bodies_over, visit_bodies_in};
 use crate::space::Space;
 use crate::world::{World, slot_of};
 use asunder_narrow::ArrayVec;
@@ -51,6 +51,13 @@ impl<S: Walks> Near<S> {
             .then_with(|| self.plane.away.rank(other.plane.away))
             .then_with(|| of_body(self).cmp(&of_body(other)))
     }
+
+    /// Whether the same body has a plane already that leads much the same way, less than 45 degrees off.
+    fn is_among(&self, near: &[Self]) -> bool {
+        let leads_so =
+            |known: &Self| known.plane.away.dot(self.plane.away) > core::f64::consts::FRAC_1_SQRT_2;
+        near.iter().any(|known| known.body == self.body && leads_so(known))
+    }
 }
 
 /// A shape and where it is.
@@ -74,6 +81,8 @@ impl<S: Walks> Freeing<'_, S> {
     ///   nothing overlaps: done
     ///   push out of the deepest plane alone; if that frees the shape: done, by the shortest way out of that plane
     ///   push out of all planes at once
+    ///   where ground holds that, since a centre would go through, and none of its planes leads the way of its side:
+    ///     push out of the ground's own plane there, alone if that frees the shape: done; else with all others   (Hold)
     /// after sixteen rounds: the best place so far, halfway between what presses the shape there   (eased)
     /// ```
     /// The deepest plane comes first, since among tiles of a floor it is the only one that matters: the sides of
@@ -113,7 +122,7 @@ impl<S: Walks> Freeing<'_, S> {
         let mut pose = *self.start;
         let (mut best, mut least) = ((f64::NEG_INFINITY, pose), 0.0);
         for round in 0..=ROUNDS {
-            let near = self.near(&pose);
+            let mut near = self.near(&pose);
             let Some(deepest) = deepest::<S>(&near).filter(|deepest| deepest.gap <= 0.0) else {
                 return (self.found(pose, !self.overlaps(&pose)), least);
             };
@@ -133,8 +142,20 @@ impl<S: Walks> Freeing<'_, S> {
             if let Some(moved) = alone.filter(|_| self.share_before_solids(&pose, way, target) >= 1.0) {
                 return (self.found(moved, true), least);
             }
-            let way = push::<S>(&near, target);
-            match S::moved(&pose, way * self.share_before_solids(&pose, way, target)) {
+            let mut way = push::<S>(&near, target);
+            let mut hold = self.hold(&pose, way, target);
+            if let Some(plane) = self.plane_of(&hold, &pose).filter(|plane| !plane.is_among(&near)) {
+                let out = plane.plane.away * (target - plane.plane.gap);
+                let alone = S::moved(&pose, out).filter(|moved| !self.overlaps(moved));
+                if let Some(moved) = alone.filter(|_| self.share_before_solids(&pose, out, target) >= 1.0) {
+                    return (self.found(moved, true), least);
+                }
+                if near.try_push(plane).is_ok() {
+                    way = push::<S>(&near, target);
+                    hold = self.hold(&pose, way, target);
+                }
+            }
+            match S::moved(&pose, way * hold.share) {
                 Some(pushed) => pose = pushed,
                 None => break,
             }
@@ -212,7 +233,12 @@ impl<S: Walks> Freeing<'_, S> {
         None
     }
 
-    /// Which share of a way is allowed: all of it, unless the centre of one of the shape's convex parts would go
+    /// Which share of a way is allowed: see [`Freeing::hold`].
+    fn share_before_solids(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
+        self.hold(from, way, before).share
+    }
+
+    /// What holds the shape on a way: nothing, unless the centre of one of the shape's convex parts would go
     /// 1. through ground, from a side that is solid. Beyond it the part would not count as overlapping that ground, and
     ///    a shape pressed against it would count as free there;
     /// 2. from outside of all bodies into a fixed one. A press would push a character out below a thin floor otherwise.
@@ -222,13 +248,14 @@ impl<S: Walks> Freeing<'_, S> {
     /// Centres stop `before` metres short of where they would enter. Until 2026-11-27 they went a share of the
     /// remaining way: after sixteen rounds nothing was left between centre and ground, and the next push started behind
     /// it.
-    fn share_before_solids(&self, from: &S::Pose, way: S::Point, before: f64) -> f64 {
+    fn hold(&self, from: &S::Pose, way: S::Point, before: f64) -> Hold<S> {
         let Self { world, shape, filter, .. } = *self;
         let before = before / way.length();
-        let mut share = 1.0_f64;
+        let mut hold = Hold { share: 1.0, ground: None };
         S::middles((shape, from), |middle| {
             let Some(ray) = S::ray(middle, way) else { return };
-            let (mut ground, mut fixed, mut is_outside) = (f64::INFINITY, f64::INFINITY, true);
+            let (mut first, mut surface) = (f64::INFINITY, None);
+            let (mut fixed, mut is_outside) = (f64::INFINITY, true);
             // What is just beyond the end of the way counts, too, so that the gap is kept there.
             let _ = bodies_along_ray(world, &ray, 1.0 + before, filter).visit(|hit| {
                 let Some(body) = world.bodies.get(hit.body) else { return ControlFlow::Continue(()) };
@@ -238,7 +265,13 @@ impl<S: Walks> Freeing<'_, S> {
                     } else {
                         Some(hit.distance)
                     };
-                    ground = through.map_or(ground, |at| at.min(ground));
+                    let is_first = |at: &f64| match at.total_cmp(&first) {
+                        Ordering::Equal => surface.is_some_and(|known| Self::is_ranked_before(&hit, &known)),
+                        order => order.is_lt(),
+                    };
+                    if let Some(at) = through.filter(is_first) {
+                        (first, surface) = (at, (!hit.inside).then_some(hit));
+                    }
                 } else if hit.inside {
                     is_outside = false;
                 } else if body.fixed {
@@ -247,11 +280,34 @@ impl<S: Walks> Freeing<'_, S> {
                 ControlFlow::Continue(())
             });
             let began_at = middle - (S::position(from) - S::position(self.start));
-            let counts = fixed < f64::INFINITY && (is_outside || self.is_outside(began_at));
-            let at = if counts { ground.min(fixed) } else { ground };
-            share = share.min((at - before).max(0.0));
+            let counts = fixed < first && (is_outside || self.is_outside(began_at));
+            let (at, ground) = if counts { (fixed, None) } else { (first, surface) };
+            let share = (at - before).max(0.0);
+            if share < hold.share {
+                hold = Hold { share, ground };
+            }
         });
-        share
+        hold
+    }
+
+    /// Whether of two grounds that a ray meets at the same place this one counts: bodies come in no promised order.
+    fn is_ranked_before(hit: &Enter<S>, known: &Enter<S>) -> bool {
+        S::wide(hit.normal).rank(S::wide(known.normal)).is_lt()
+    }
+
+    /// The plane of the ground that holds the shape, at the side on which the part's centre is: out of that, it may
+    /// always be pushed. Ground often ends near the shape then, and its rim gives the direction of the manifold.
+    fn plane_of(&self, hold: &Hold<S>, from: &S::Pose) -> Option<Near<S>> {
+        let hit = hold.ground?;
+        let away = S::wide(hit.normal).unit()?;
+        let height = away.dot(S::position(from) - hit.point);
+        let gap = height - S::reach((self.shape, from), -away)?;
+        let (body, order) = (hit.body, usize::MAX);
+        gap.is_finite().then_some(Near {
+            body,
+            order,
+            plane: Gap { away, gap, point: hit.point, part: hit.part },
+        })
     }
 
     /// Whether a point is outside of all bodies but ground.
@@ -263,6 +319,14 @@ impl<S: Walks> Freeing<'_, S> {
         });
         found.is_continue()
     }
+}
+
+/// How far a shape may go, and what holds it there.
+struct Hold<S: Walks> {
+    /// The share of the way that is allowed.
+    share: f64,
+    /// The ground that the centre of a part would go through then.
+    ground: Option<Enter<S>>,
 }
 
 /// The plane in which the shape is deepest, or to which it is nearest.
