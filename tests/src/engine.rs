@@ -35,6 +35,8 @@ pub enum Change<S: Space> {
     Owner(Option<u64>),
     /// `World::set_bullet`.
     Bullet(bool),
+    /// `World::set_impacts_only`.
+    ImpactsOnly(bool),
     /// `World::set_margin`.
     Margin(f32),
     /// `World::replace`.
@@ -60,7 +62,8 @@ impl<S: Engine> Change<S> {
             15 => Self::Fixed(random.below(2) == 0),
             16 => Self::Owner(Some(random.below(4) as u64).filter(|&owner| owner < 3)),
             17 => Self::Bullet(random.below(2) == 0),
-            18..20 => Self::Margin(body.get_margin()),
+            18 => Self::ImpactsOnly(random.below(2) == 0),
+            19 => Self::Margin(body.get_margin()),
             _ => {
                 // A body must be returned as it was; the model knows no sleeping or disabled ones.
                 body = body.user_data(random.below(1 << 20) as u64);
@@ -170,6 +173,8 @@ pub struct Traits {
     pub sensor: bool,
     /// `Collider::bullet`.
     pub bullet: bool,
+    /// `Collider::impacts_only`.
+    pub impacts_only: bool,
     /// `Collider::owner`.
     pub owner: Option<u64>,
 }
@@ -177,8 +182,9 @@ pub struct Traits {
 impl Traits {
     /// The traits of a body.
     pub fn of<S: Space>(body: &Collider<S>) -> Self {
-        let (fixed, sensor, bullet) = (body.is_fixed(), body.is_sensor(), body.is_bullet());
-        Self { fixed, sensor, bullet, owner: body.get_owner() }
+        let (fixed, sensor) = (body.is_fixed(), body.is_sensor());
+        let (bullet, impacts_only) = (body.is_bullet(), body.is_impacts_only());
+        Self { fixed, sensor, bullet, impacts_only, owner: body.get_owner() }
     }
 }
 
@@ -194,6 +200,9 @@ fn with_traits<S: Space>(mut body: Collider<S>, other: &Collider<S>, traits: Tra
     }
     if traits.bullet {
         body = body.bullet();
+    }
+    if traits.impacts_only {
+        body = body.impacts_only();
     }
     traits.owner.into_iter().fold(body, Collider::owner)
 }

@@ -200,6 +200,9 @@ impl<S: Judged> NaiveWorld<S> {
             Change::Bullet(bullet) => {
                 *body = S::with_traits(body, Traits { bullet: *bullet, ..Traits::of(body) });
             }
+            Change::ImpactsOnly(impacts_only) => {
+                *body = S::with_traits(body, Traits { impacts_only: *impacts_only, ..Traits::of(body) });
+            }
             Change::Margin(margin) => {
                 let with = body.clone().margin(*margin);
                 *body = with.expect("a body had it");

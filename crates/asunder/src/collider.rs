@@ -151,6 +151,7 @@ pub struct Collider<S: Space> {
     pub(crate) disabled: bool,
     pub(crate) asleep: bool,
     pub(crate) bullet: bool,
+    pub(crate) impacts_only: bool,
 }
 
 /// A body in the plane.
@@ -246,6 +247,7 @@ impl<S: Space> Collider<S> {
             disabled: false,
             asleep: false,
             bullet: false,
+            impacts_only: false,
         }
     }
 
@@ -272,9 +274,40 @@ impl<S: Space> Collider<S> {
     /// If it has a motion ([`World3::set_motion`](crate::World3::set_motion)), the update reports which bodies it runs
     /// into first ([`World3::impacts`](crate::World3::impacts)); stopping it there is up to the game. Bodies that it
     /// touches at the start are left out; of ground and compounds, only the parts that it touches.
+    ///
+    /// The motion also brings speculative contacts, which take most of the time. If nobody reads them:
+    /// [`impacts_only`](Self::impacts_only).
     #[must_use]
     pub fn bullet(mut self) -> Self {
         self.bullet = true;
+        self
+    }
+
+    /// Leaves out the speculative contacts that the body's motions bring: of a bullet, impacts alone are left. Its pairs
+    /// have contacts within their margins, as if neither body moved.
+    ///
+    /// For shots in games that do not solve contacts. It saves most of the time of their frames: speculative contacts
+    /// are with all that is as near as the motion is long, in any direction, which over bumpy ground may be a thousand
+    /// triangles.
+    ///
+    /// ```
+    /// use asunder::{Collider3, Cuboid, Motion3, Pose3, Sphere, World3, glam::Vec3};
+    /// let mut world = World3::new();
+    /// let wall = Collider3::new(Cuboid::from_half_extents(Vec3::splat(0.5))?).fixed();
+    /// let wall = world.insert(wall.at(Pose3::at([3.0, 0.0, 0.0])?));
+    /// let shot = world.insert(Collider3::new(Sphere::new(0.1)?).bullet().impacts_only());
+    /// for has_contacts in [false, true] {
+    ///     world.set_impacts_only(shot, !has_contacts)?;
+    ///     world.set_motion(shot, Motion3::shift([5.0, 0.0, 0.0])?)?;
+    ///     world.update();
+    ///     assert!(world.impacts_of(shot).any(|hit| hit.other == wall));
+    ///     assert_eq!(world.contact(shot, wall).is_some(), has_contacts);
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn impacts_only(mut self) -> Self {
+        self.impacts_only = true;
         self
     }
 
@@ -342,6 +375,18 @@ impl<S: Space> Collider<S> {
     /// ```
     pub fn is_bullet(&self) -> bool {
         self.bullet
+    }
+
+    /// Whether the body's motions bring no speculative contacts.
+    ///
+    /// ```
+    /// use asunder::{Circle, Collider2};
+    /// let shot = Collider2::new(Circle::new(0.1)?).bullet();
+    /// assert!(!shot.is_impacts_only() && shot.impacts_only().is_impacts_only());
+    /// # Ok::<(), asunder::RadiusError>(())
+    /// ```
+    pub fn is_impacts_only(&self) -> bool {
+        self.impacts_only
     }
 
     /// Whether the body is enabled and takes part.

@@ -337,6 +337,15 @@ impl World<Plane> {
         self.change_body(key, |body| body.bullet = bullet)
     }
 
+    /// Sets whether a body's motions from now on bring no speculative contacts: see
+    /// [`Collider::impacts_only`](crate::Collider::impacts_only).
+    ///
+    /// # Errors
+    /// A stale key.
+    pub fn set_impacts_only(&mut self, key: BodyKey2, impacts_only: bool) -> Result<(), StaleKey> {
+        self.change_body(key, |body| body.impacts_only = impacts_only)
+    }
+
     /// Lets a disabled body take part again.
     ///
     /// # Errors

@@ -33,6 +33,7 @@ macro_rules! as_the_world_says {
                 Change::Fixed(fixed) => world.set_fixed(key, fixed),
                 Change::Owner(owner) => world.set_owner(key, owner),
                 Change::Bullet(bullet) => world.set_bullet(key, bullet),
+                Change::ImpactsOnly(impacts_only) => world.set_impacts_only(key, impacts_only),
                 Change::Margin(margin) => return world.set_margin(key, margin).is_ok(),
                 Change::Replace(body) => world.replace(key, body).map(|_| ()),
             };

@@ -81,7 +81,7 @@ impl<S: Judged> Ahead<S> {
         self.seen.insert(slots, Seen { start, separations, is_one_sided });
     }
 
-    /// The contact that the motions of two bodies beyond their margins may bring.
+    /// The contact that the motions of two bodies beyond their margins may bring, unless only impacts of one are wanted.
     pub(super) fn to_come(
         &self,
         world: &World<S>,
@@ -90,7 +90,8 @@ impl<S: Judged> Ahead<S> {
         word: Word,
     ) -> Option<Record<S>> {
         let record = Record { speculative: true, ..record_of([a, b], word) };
-        let seen = self.seen.get(&slots).filter(|_| !record.sensor)?;
+        let is_left_out = record.sensor || a.body.is_impacts_only() || b.body.is_impacts_only();
+        let seen = self.seen.get(&slots).filter(|_| !is_left_out)?;
         let (margin, is_told) = (margin_of([a, b]), S::contact(world, a.key, b.key).is_some());
         let comes = seen.separations.iter().any(|&separation| separation <= margin - LOOSE);
         let travel = |tenant: &Tenant<S>| tenant.motion.as_ref().map_or(DVec3::ZERO, S::displacement);

@@ -217,10 +217,11 @@ impl<S: Space> CollideStage<'_, S> {
         S::collide(&jobs, answered);
     }
 
-    /// By how much the bodies' motions may bring them nearer. Sensors have no speculative contacts.
+    /// By how much the bodies' motions may bring them nearer. Neither sensors nor bodies of which only impacts are wanted
+    /// have speculative contacts.
     #[inline]
     fn approach(&self, pair: PairId, (a, b): Bodies<'_, S>) -> f32 {
-        if self.motions.is_empty() || a.sensor || b.sensor {
+        if self.motions.is_empty() || a.sensor || b.sensor || a.impacts_only || b.impacts_only {
             return 0.0;
         }
         approach([a, b], [self.motions.of(pair.a), self.motions.of(pair.b)])

@@ -30,6 +30,8 @@ pub(super) struct BodyForm<Shape, Pose> {
     asleep: bool,
     #[serde(default)]
     bullet: bool,
+    #[serde(default)]
+    impacts_only: bool,
 }
 
 impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
@@ -49,6 +51,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             disabled,
             asleep,
             bullet,
+            impacts_only,
         } = body;
         Self {
             shape: shape(of_body),
@@ -62,6 +65,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             disabled: *disabled,
             asleep: *asleep,
             bullet: *bullet,
+            impacts_only: *impacts_only,
         }
     }
 
@@ -79,6 +83,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             disabled,
             asleep,
             bullet,
+            impacts_only,
         } = self;
         let is_ground = S::is_ground(&shape);
         Collider::<S> {
@@ -93,6 +98,7 @@ impl<Shape, Pose: Copy> BodyForm<Shape, Pose> {
             disabled: *disabled,
             asleep: *asleep,
             bullet: *bullet,
+            impacts_only: *impacts_only,
         }
         .margin(*margin)
     }

@@ -15,7 +15,7 @@ use asunder_narrow::Hint;
 use serde::{Deserialize, Serialize};
 
 /// The number of this format; it changes whenever a field is added, removed or changes its meaning.
-pub(super) const FORMAT: u32 = 7;
+pub(super) const FORMAT: u32 = 8;
 
 /// A world, without data that can be derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
