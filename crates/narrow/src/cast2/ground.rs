@@ -199,7 +199,7 @@ struct Met {
 /// How ground is met by a touch; `None` if it does not face the other.
 ///
 /// Where a corner is met, the other may move away along the ground's own normal. Coming out of one-sided ground that
-/// way, it passes, unless it turns and its middle goes through the segment's front after all. In that case, and on
+/// way, from behind it, it passes, unless it turns and its middle goes through the segment's front after all. In that case, and on
 /// two-sided ground, the normal is the axis that the two touch along. But for a body that turns, the ground's own
 /// normal decides what is level: a box that slides over a hill, pressed into it, meets the far corners from inside as
 /// it leans.
@@ -227,7 +227,10 @@ fn surface_met(
         return along(axis, run);
     }
     let level = if course.is_turning() { axis } else { touching.axis };
-    let falls_through = |chord: Segment2| course.falls_through((side, chord), touching, after);
-    let passes = chain.is_one_sided() && !chain.chord(&run).is_some_and(falls_through);
+    let comes_out = |chord: Segment2| {
+        course.reaches_behind((side, chord), touching)
+            && !course.falls_through((side, chord), touching, after)
+    };
+    let passes = chain.is_one_sided() && chain.chord(&run).is_none_or(comes_out);
     (!passes).then_some(Met { axis: touching.axis, level, run })
 }

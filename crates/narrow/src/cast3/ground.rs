@@ -8,7 +8,8 @@
 //!     it comes down on the inside of the triangle:          there, in closed form             (ground3::bounds::landing)
 //!     else, once a few such are found:                      when the two touch, as any two convex shapes
 //!     touched at an inner edge or vertex, along a direction that the part moves away in:
-//!       one-sided, and the part's centre stays in front:    it comes out of the ground, and passes
+//!       one-sided, some of it is behind the triangle's plane, and the part's centre stays in front:
+//!                                                           it comes out of the ground, and passes
 //!       else:                                               an impact along the axis that they touch along
 //! report the triangle touched first, with the ground's normal there: inner edges and vertices have none of their own
 //! ```
@@ -19,7 +20,7 @@
 use super::advance::{End, Met};
 use super::beyond::MOMENTS;
 use super::counts::Counts;
-use super::passage::Passage;
+use super::passage::{Course, Passage};
 use super::{end_of_apart, impact_of, part_end};
 use crate::ground3::{Corners, Facing, OnGround, Touched, Viewpoint};
 use crate::impact3::Impact3;
@@ -216,11 +217,36 @@ impl Search<'_> {
             return false;
         }
         let (impact, facing) = impact_and_facing(self.on, self.passage, first);
-        if is_one_sided && facing.is_left && self.stays_in_front(first, parts) {
+        if is_one_sided
+            && facing.is_left
+            && self.reaches_behind(first, parts)
+            && self.stays_in_front(first, parts)
+        {
             return true;
         }
         let normal = if self.on.is_b { -facing.away } else { facing.away };
         !self.counts.admits((self.passage, parts), (first.met.fraction, normal), || impact)
+    }
+
+    /// Whether some of a part is behind the plane of a triangle where the two touch: else it does not come out of the
+    /// ground. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of the two is
+    /// found to touch is up to rounding.
+    fn reaches_behind(&self, first: &First, parts: [Part; 2]) -> bool {
+        let (on, passage) = (self.on, self.passage);
+        if passage.is_straight() {
+            return true;
+        }
+        let [_, ground] = on.in_order([0, 1]);
+        let [a, b, c] = on.ground.corners(first.triangle).map(|corner| corner.as_dvec3());
+        let Some(front) = (b - a).cross(c - a).try_normalize() else { return true };
+        let basis = passage.turns[ground].map_or(on.basis, |turn| turn.basis_at(first.met.fraction));
+        let towards_body = basis.turn(front);
+        let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
+        let course = Course::new(passage, parts, [&core_a, &core_b]);
+        let moment = course.at(first.met.fraction);
+        let height = moment.gap_along(if on.is_b { -towards_body } else { towards_body }) - course.radii;
+        let doubt = moment.precision.projection();
+        height < -(course.slack + course.fineness.gap(doubt))
     }
 
     /// Whether a part's centre stays in front of the plane of a triangle that it leaves: a part that turns may come

@@ -57,6 +57,21 @@ impl<'a> Course<'a> {
         }
     }
 
+    /// Whether some of a part that turns is behind the line of a straight run where the two touch: else it does not come
+    /// out of the ground. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of
+    /// the two is found to touch is up to rounding.
+    pub(in super::super) fn reaches_behind(
+        &self,
+        (ground, chord): (usize, Segment2),
+        touching: &Touching,
+    ) -> bool {
+        let [start, end] = chord.ends().map(|end| end.as_dvec2());
+        let (turn, _) = self.place(ground, touching.at);
+        let Some(front) = turn.turn(-(end - start).perp()).try_normalize() else { return true };
+        let axis = if ground == 0 { front } else { -front };
+        !self.is_turning() || self.gap(axis, touching.at) < -self.nearness()
+    }
+
     fn fate(&self, (ground, chord): (usize, Segment2), axis: DVec2, from: f64) -> Fate {
         let [start, end] = chord.ends().map(|end| end.as_dvec2());
         let (along, slack) = (end - start, self.nearness());
