@@ -23,6 +23,7 @@ mod shapes;
 mod skins;
 mod slopes;
 mod stale;
+mod tipping;
 mod turned;
 mod wheels;
 

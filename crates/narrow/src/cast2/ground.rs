@@ -227,10 +227,9 @@ fn surface_met(
         return along(axis, run);
     }
     let level = if course.is_turning() { axis } else { touching.axis };
-    let comes_out = |chord: Segment2| {
-        course.reaches_behind((side, chord), touching)
-            && !course.falls_through((side, chord), touching, after)
-    };
-    let passes = chain.is_one_sided() && chain.chord(&run).is_none_or(comes_out);
+    let falls_through = |chord: Segment2| course.falls_through((side, chord), touching, after);
+    let passes = chain.is_one_sided()
+        && course.reaches_behind(axis, touching)
+        && !chain.chord(&run).is_some_and(falls_through);
     (!passes).then_some(Met { axis: touching.axis, level, run })
 }

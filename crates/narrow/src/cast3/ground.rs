@@ -8,7 +8,7 @@
 //!     it comes down on the inside of the triangle:          there, in closed form             (ground3::bounds::landing)
 //!     else, once a few such are found:                      when the two touch, as any two convex shapes
 //!     touched at an inner edge or vertex, along a direction that the part moves away in:
-//!       one-sided, some of it is behind the triangle's plane, and the part's centre stays in front:
+//!       one-sided, some of it is behind, and its centre stays in front of the triangle's plane:
 //!                                                           it comes out of the ground, and passes
 //!       else:                                               an impact along the axis that they touch along
 //! report the triangle touched first, with the ground's normal there: inner edges and vertices have none of their own
@@ -219,7 +219,7 @@ impl Search<'_> {
         let (impact, facing) = impact_and_facing(self.on, self.passage, first);
         if is_one_sided
             && facing.is_left
-            && self.reaches_behind(first, parts)
+            && self.reaches_behind(first, facing.away, parts)
             && self.stays_in_front(first, parts)
         {
             return true;
@@ -228,25 +228,21 @@ impl Search<'_> {
         !self.counts.admits((self.passage, parts), (first.met.fraction, normal), || impact)
     }
 
-    /// Whether some of a part is behind the plane of a triangle where the two touch: else it does not come out of the
-    /// ground. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of the two is
-    /// found to touch is up to rounding.
-    fn reaches_behind(&self, first: &First, parts: [Part; 2]) -> bool {
-        let (on, passage) = (self.on, self.passage);
+    /// Whether some of a part is behind a touched point, along the ground's direction there: else it does not come out
+    /// of the ground. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of the
+    /// two is found to touch is up to rounding.
+    fn reaches_behind(&self, first: &First, away: DVec3, parts: [Part; 2]) -> bool {
+        let (on, passage, met) = (self.on, self.passage, &first.met);
         if passage.is_straight() {
             return true;
         }
-        let [_, ground] = on.in_order([0, 1]);
-        let [a, b, c] = on.ground.corners(first.triangle).map(|corner| corner.as_dvec3());
-        let Some(front) = (b - a).cross(c - a).try_normalize() else { return true };
-        let basis = passage.turns[ground].map_or(on.basis, |turn| turn.basis_at(first.met.fraction));
-        let towards_body = basis.turn(front);
+        let [body, ground] = on.in_order([0, 1]);
         let (core_a, core_b) = (parts[0].shape.core(), parts[1].shape.core());
         let course = Course::new(passage, parts, [&core_a, &core_b]);
-        let moment = course.at(first.met.fraction);
-        let height = moment.gap_along(if on.is_b { -towards_body } else { towards_body }) - course.radii;
-        let doubt = moment.precision.projection();
-        height < -(course.slack + course.fineness.gap(doubt))
+        let moment = course.at(met.fraction);
+        let point = met.anchors[ground] + if on.is_b { moment.between } else { DVec3::ZERO };
+        let height = -moment.reach_of(body, -away) - first.radius - away.dot(point);
+        height < -(course.slack + course.fineness.gap(moment.precision.projection()))
     }
 
     /// Whether a part's centre stays in front of the plane of a triangle that it leaves: a part that turns may come

@@ -96,11 +96,16 @@ pub(super) struct Moment<'a> {
 impl Moment<'_> {
     /// The gap between the two cores along an axis.
     pub(super) fn gap_along(&self, axis: DVec3) -> f64 {
-        let reach = |placed: &Placed, axis: DVec3, origin: DVec3| match placed {
+        -self.reach_of(0, axis) - self.reach_of(1, -axis)
+    }
+
+    /// How far a core reaches along an axis, from A's position.
+    pub(super) fn reach_of(&self, which: usize, axis: DVec3) -> f64 {
+        let (placed, origin) = if which == 0 { (&self.a, DVec3::ZERO) } else { (&self.b, self.between) };
+        match placed {
             Placed::Core(solid) => solid.support(axis).reach,
             Placed::HalfSpace(_) => axis.dot(origin),
-        };
-        -reach(&self.a, axis, DVec3::ZERO) - reach(&self.b, -axis, self.between)
+        }
     }
 }
 

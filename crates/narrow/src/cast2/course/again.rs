@@ -57,18 +57,10 @@ impl<'a> Course<'a> {
         }
     }
 
-    /// Whether some of a part that turns is behind the line of a straight run where the two touch: else it does not come
-    /// out of the ground. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of
+    /// Whether the two overlap along an axis where they touch, if either turns: else no part comes out of ground that
+    /// has this direction. A crate that lies on a floor and turns has a side that rises and one that sinks, and which of
     /// the two is found to touch is up to rounding.
-    pub(in super::super) fn reaches_behind(
-        &self,
-        (ground, chord): (usize, Segment2),
-        touching: &Touching,
-    ) -> bool {
-        let [start, end] = chord.ends().map(|end| end.as_dvec2());
-        let (turn, _) = self.place(ground, touching.at);
-        let Some(front) = turn.turn(-(end - start).perp()).try_normalize() else { return true };
-        let axis = if ground == 0 { front } else { -front };
+    pub(in super::super) fn reaches_behind(&self, axis: DVec2, touching: &Touching) -> bool {
         !self.is_turning() || self.gap(axis, touching.at) < -self.nearness()
     }
 
