@@ -73,8 +73,9 @@ pub struct Walk<N> {
     /// 0.3 r, since the normal at the edge is then no steeper than that of ground. Default: 0.35 of the shape's
     /// bounding radius, a third of a metre for an adult.
     pub step: f32,
-    /// How far down a character follows the ground on which it stood, unless it moves up; 0 to switch that off.
-    /// Default: the same as `step`.
+    /// How far down a character follows the ground on which it stood, unless it moves up; 0 to switch that off. It stood
+    /// if there is ground about a skin below where the move starts; only then it climbs steps, too. Default: the same
+    /// as `step`.
     pub snap: f32,
 }
 

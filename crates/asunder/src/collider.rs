@@ -287,8 +287,8 @@ impl<S: Space> Collider<S> {
     /// have contacts within their margins, as if neither body moved.
     ///
     /// For shots in games that do not solve contacts. It saves most of the time of their frames: speculative contacts
-    /// are with all that is as near as the motion is long, in any direction, which over bumpy ground may be a thousand
-    /// triangles.
+    /// are with all that is as near as the motion is long, in any direction, which may be hundreds of triangles of bumpy
+    /// ground.
     ///
     /// ```
     /// use asunder::{Collider3, Cuboid, Motion3, Pose3, Sphere, World3, glam::Vec3};

@@ -84,6 +84,8 @@ impl Pair2<'_> {
     ///   of the chain when it first touches that run passes through all of it, even if its centre crosses it on the
     ///   way; contacts begin then. A shape that turns may come to touch the run again, from its front, once the two
     ///   have been apart for a 32nd of the motion; after a shorter time apart, that touch may be missed.
+    /// - A part that reaches behind the line of a one-sided chain passes the end of the chain while the point that
+    ///   touches it moves away from the front.
     /// - At inner vertices of straight lines and hollows, the normal is that of the run they are on. The part of a
     ///   chain is the first segment of the straight run that is met.
     /// - A shape that starts nearer to one part than positions round to, and moves along it, may overlap that part, by

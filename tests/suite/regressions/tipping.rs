@@ -46,7 +46,7 @@ fn what_lies_on_a_one_sided_floor_and_turns_does_not_fall_through_in_space() {
     let corners = cube.vertices().to_vec();
     let capsule = Capsule3::new(Vec3::NEG_X, Vec3::X, 0.5).unwrap();
     let bodies: [Shape3; 5] = [
-        cube.clone().into(),
+        cube.into(),
         Hull::from_points(&corners).unwrap().into(),
         Cuboid::from_half_extents(Vec3::splat(0.4)).unwrap().rounded(0.1).unwrap().into(),
         capsule.into(),
