@@ -62,7 +62,7 @@ impl<S: Engine> Change<S> {
             15 => Self::Fixed(random.below(2) == 0),
             16 => Self::Owner(Some(random.below(4) as u64).filter(|&owner| owner < 3)),
             17 => Self::Bullet(random.below(2) == 0),
-            18 => Self::ImpactsOnly(random.below(2) == 0),
+            18 => Self::ImpactsOnly(body.get_user_data() % 2 == 0),
             19 => Self::Margin(body.get_margin()),
             _ => {
                 // A body must be returned as it was; the model knows no sleeping or disabled ones.
