@@ -62,6 +62,7 @@ impl<S: Engine> Change<S> {
             15 => Self::Fixed(random.below(2) == 0),
             16 => Self::Owner(Some(random.below(4) as u64).filter(|&owner| owner < 3)),
             17 => Self::Bullet(random.below(2) == 0),
+            // Draws no number of its own, so that the lists of other changes stay what they were.
             18 => Self::ImpactsOnly(body.get_user_data() % 2 == 0),
             19 => Self::Margin(body.get_margin()),
             _ => {

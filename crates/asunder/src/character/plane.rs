@@ -51,8 +51,8 @@ impl World<Plane> {
     /// 1. It is pushed out of the body in which it is deepest. If that frees it, this is the shortest way out of that
     ///    body.
     /// 2. Otherwise it is pushed out of the planes of all manifolds at once (of the sixteen deepest, if there are
-    ///    more), and this is repeated up to sixteen times. Where that would lead a convex part's centre through
-    ///    a chain, whose end lies in the shape, it is pushed out to the side on which the centre is.
+    ///    more), and this is repeated up to sixteen times. Where a push away from an end of a chain would lead a
+    ///    convex part's centre through it, the shape is pushed out to the side on which that centre is.
     /// 3. If that does not free it, or only by a way half as long again as the one out of that body alone, straight
     ///    ways are tried: along the normals of those manifolds and in eight directions all around, up to four times as
     ///    far.

@@ -199,10 +199,10 @@ struct Met {
 /// How ground is met by a touch; `None` if it does not face the other.
 ///
 /// Where a corner is met, the other may move away along the ground's own normal. Coming out of one-sided ground that
-/// way, from behind it, it passes, unless it turns and its middle goes through the segment's front after all. In that case, and on
-/// two-sided ground, the normal is the axis that the two touch along. But for a body that turns, the ground's own
-/// normal decides what is level: a box that slides over a hill, pressed into it, meets the far corners from inside as
-/// it leans.
+/// way, from behind it, it passes, unless it turns and its middle goes through the segment's front after all. In that
+/// case, and on two-sided ground, the normal is the axis that the two touch along. But for a body that turns, the
+/// ground's own normal decides what is level: a box that slides over a hill, pressed into it, meets the far corners from
+/// inside as it leans.
 fn surface_met(
     (chain, segment): (&Chain, u32),
     (course, after): (&Course, Option<&Stretch>),
